@@ -70,3 +70,16 @@ macro_rules! scalar {
 
 scalar!(f64, libm::sqrt, libm::sincos);
 scalar!(f32, libm::sqrtf, libm::sincosf);
+
+/// The farthest that a prismatic joint's coordinate is read as, m.
+///
+/// No mechanism reaches it, and with it no product of a mass matrix's entries leaves the range of `f64`.
+pub const PRISMATIC_LIMIT: f64 = 1e12;
+
+/// A prismatic joint's coordinate as every backend reads it: held within ±[`PRISMATIC_LIMIT`],
+/// so that no finite coordinate, however absurd, makes a result NaN.
+///
+/// A revolute joint's coordinate needs no such rule: it enters by [`Real::sin_cos`] only, which is defined for every finite angle.
+pub fn prismatic_offset(q: f64) -> f64 {
+    q.clamp(-PRISMATIC_LIMIT, PRISMATIC_LIMIT)
+}

@@ -1,6 +1,23 @@
 //! The generic path: textbook formulas on nalgebra, for any table at run time. The specification of every backend.
+//!
+//! Written to be read beside the books, not for speed:
+//! Siciliano, Sciavicco, Villani, Oriolo, *Robotics* (2009): Jacobian 3.1, mass matrix 7.2;
+//! Craig, *Introduction to Robotics* (3rd ed.): frames 3.4, inverse dynamics 6.5;
+//! and the paper on joint impact torque, Eq. 15 and 22–27, for w_D and its gradient.
 
-use crate::{Joint, Placement, TaskRows};
+mod finite_difference;
+mod kinematics;
+pub mod literal;
+mod manipulability;
+mod mass_matrix;
+mod newton_euler;
+mod orthogonal;
+
+use nalgebra::{IsometryMatrix3, SMatrix, SVector};
+
+use crate::{Arm, Joint, Placement, TaskRows};
+
+pub use newton_euler::JointLoad;
 
 /// A serial chain of `N` joints, evaluated by textbook formulas.
 ///
@@ -17,4 +34,105 @@ pub struct SerialChain<const N: usize> {
     pub gravity: [f64; 3],
     /// The rows of J in w_D.
     pub task: TaskRows,
+}
+
+/// The model has another number of joints than the chain's type.
+#[cfg(feature = "table")]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("arm `{arm}` has {joints} joints, not {expected}: write SerialChain::<{joints}>")]
+pub struct JointCountError {
+    /// The arm's name.
+    pub arm: std::string::String,
+    /// The joints of the model.
+    pub joints: usize,
+    /// The joints of the type, `N`.
+    pub expected: usize,
+}
+
+#[cfg(feature = "table")]
+impl<const N: usize> SerialChain<N> {
+    /// The chain of `model`.
+    ///
+    /// # Errors
+    /// When `model` has another number of joints than `N`.
+    pub fn new(model: &crate::Model) -> Result<Self, JointCountError> {
+        let joints =
+            <[Joint; N]>::try_from(model.joints.as_slice()).map_err(|_| JointCountError {
+                arm: model.name.clone(),
+                joints: model.joints.len(),
+                expected: N,
+            })?;
+        Ok(Self {
+            joints,
+            base: model.base,
+            tool: model.tool,
+            gravity: model.gravity,
+            task: model.task,
+        })
+    }
+}
+
+impl<const N: usize> Arm<N> for SerialChain<N> {
+    fn task(&self) -> TaskRows {
+        self.task
+    }
+
+    fn rated_torque(&self) -> SVector<f64, N> {
+        SVector::from_fn(|i, _| self.joints[i].rated_torque.unwrap_or(f64::INFINITY))
+    }
+
+    fn forward_kinematics(&self, q: &SVector<f64, N>) -> IsometryMatrix3<f64> {
+        self.frames(&self.inputs(q)).world_from_tool
+    }
+
+    fn geometric_jacobian(&self, q: &SVector<f64, N>) -> SMatrix<f64, 6, N> {
+        self.tool_jacobian(&self.inputs(q))
+    }
+
+    fn jacobian_derivatives(&self, q: &SVector<f64, N>) -> [SMatrix<f64, 6, N>; N] {
+        self.derivatives(&self.inputs(q), |shifted| self.tool_jacobian(shifted))
+    }
+
+    fn mass_matrix(&self, q: &SVector<f64, N>) -> SMatrix<f64, N, N> {
+        self.mass_matrix_at(&self.inputs(q))
+    }
+
+    fn mass_matrix_derivatives(&self, q: &SVector<f64, N>) -> [SMatrix<f64, N, N>; N] {
+        self.derivatives(&self.inputs(q), |shifted| self.mass_matrix_at(shifted))
+    }
+
+    fn dynamic_manipulability(&self, q: &SVector<f64, N>) -> f64 {
+        self.manipulability(&self.inputs(q))
+    }
+
+    fn dynamic_manipulability_gradient(&self, q: &SVector<f64, N>) -> (f64, SVector<f64, N>) {
+        self.manipulability_gradient(&self.inputs(q))
+    }
+
+    fn inverse_dynamics(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        let loads = self.joint_loads(q, qd, qdd);
+        SVector::from_fn(|i, _| loads[i].along_axis(self.joints[i].kind))
+    }
+
+    fn bias_force(&self, q: &SVector<f64, N>, qd: &SVector<f64, N>) -> SVector<f64, N> {
+        self.inverse_dynamics(q, qd, &SVector::zeros())
+    }
+
+    fn gravity_torque(&self, q: &SVector<f64, N>) -> SVector<f64, N> {
+        self.bias_force(q, &SVector::zeros())
+    }
+
+    fn forward_dynamics(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        tau: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        mass_matrix::factor(self.mass_matrix(q)).solve(&(tau - self.bias_force(q, qd)))
+    }
 }

@@ -1,0 +1,83 @@
+//! Inverse dynamics by the recursive Newton–Euler algorithm in link frames.
+
+use nalgebra::{Matrix3, SVector, Vector3};
+
+use super::SerialChain;
+use crate::JointKind;
+
+/// What the link before exerts on a link at its joint: all of it, not only what the motor bears.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointLoad {
+    /// Force, N, in the joint's frame.
+    pub force: Vector3<f64>,
+    /// Moment about the frame's origin, N·m, in the joint's frame.
+    pub moment: Vector3<f64>,
+}
+
+impl JointLoad {
+    /// What the motor bears: the moment about, or the force along, the joint's axis z.
+    pub fn along_axis(&self, kind: JointKind) -> f64 {
+        match kind {
+            JointKind::Revolute => self.moment.z,
+            JointKind::Prismatic => self.force.z,
+        }
+    }
+}
+
+impl<const N: usize> SerialChain<N> {
+    /// Force and moment at every joint that the motion `(q, q̇, q̈)` needs under gravity, without a tool wrench:
+    /// Craig 6.5, Eq. 6.45–6.53; for a prismatic joint the outward step is Eq. 6.33 and 6.35.
+    ///
+    /// Gravity enters as an upward acceleration of the base.
+    pub fn joint_loads(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> [JointLoad; N] {
+        let transforms = self.transforms(&self.inputs(q));
+        let z = Vector3::z();
+
+        // Outward: velocities and accelerations, then the force and moment that each link's inertia asks for.
+        let base = self.base.isometry().rotation;
+        let mut omega = Vector3::zeros();
+        let mut omega_dot = Vector3::zeros();
+        let mut v_dot = base.inverse() * -Vector3::from(self.gravity);
+        let mut loads = [JointLoad::default(); N];
+        for (i, joint) in self.joints.iter().enumerate() {
+            let p = transforms[i].translation.vector;
+            let link_from_last = transforms[i].rotation.inverse();
+            v_dot = link_from_last * (omega_dot.cross(&p) + omega.cross(&omega.cross(&p)) + v_dot);
+            omega = link_from_last * omega;
+            omega_dot = link_from_last * omega_dot;
+            match joint.kind {
+                JointKind::Revolute => {
+                    omega_dot += omega.cross(&(z * qd[i])) + z * qdd[i];
+                    omega += z * qd[i];
+                }
+                JointKind::Prismatic => {
+                    v_dot += 2.0 * omega.cross(&(z * qd[i])) + z * qdd[i];
+                }
+            }
+            let com = Vector3::from(joint.link.com);
+            let inertia = Matrix3::from_fn(|r, c| joint.link.inertia[r][c]);
+            let v_dot_com = omega_dot.cross(&com) + omega.cross(&omega.cross(&com)) + v_dot;
+            let force = v_dot_com * joint.link.mass;
+            let moment = inertia * omega_dot + omega.cross(&(inertia * omega));
+            loads[i] = JointLoad {
+                force,
+                moment: moment + com.cross(&force),
+            };
+        }
+
+        // Inward: each link also carries the ones after it.
+        for i in (1..N).rev() {
+            let p = transforms[i].translation.vector;
+            let force = transforms[i].rotation * loads[i].force;
+            let moment = transforms[i].rotation * loads[i].moment;
+            loads[i - 1].force += force;
+            loads[i - 1].moment += moment + p.cross(&force);
+        }
+        loads
+    }
+}
