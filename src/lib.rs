@@ -6,6 +6,7 @@ pub use nalgebra;
 pub mod arm;
 pub mod generic;
 pub mod model;
+pub mod proof;
 pub mod real;
 
 pub use arm::Arm;
