@@ -4,12 +4,20 @@
 pub use nalgebra;
 
 pub mod arm;
+#[cfg(feature = "table")]
+pub mod diagnostics;
 pub mod generic;
 pub mod model;
 pub mod proof;
 pub mod real;
+#[cfg(feature = "table")]
+mod table;
+#[cfg(feature = "table")]
+mod toml_reader;
 
 pub use arm::Arm;
+#[cfg(feature = "table")]
+pub use diagnostics::TableErrors;
 pub use generic::SerialChain;
 #[cfg(feature = "table")]
 pub use model::Model;
