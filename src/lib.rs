@@ -8,12 +8,16 @@ pub mod arm;
 pub mod diagnostics;
 pub mod generic;
 pub mod model;
+pub mod null_space;
 pub mod proof;
 pub mod real;
 #[cfg(feature = "table")]
 mod table;
 #[cfg(feature = "table")]
 mod toml_reader;
+#[cfg(feature = "std")]
+pub mod tool_path;
+pub mod trajectory;
 
 pub use arm::Arm;
 #[cfg(feature = "table")]
@@ -23,3 +27,4 @@ pub use generic::SerialChain;
 pub use model::Model;
 pub use model::{Angle, Joint, JointKind, Link, Placement, TaskRow, TaskRows};
 pub use real::Real;
+pub use trajectory::{JointLimits, JointState, Trajectory, Trapezoid};
