@@ -6,6 +6,7 @@ pub use nalgebra;
 pub mod arm;
 #[cfg(feature = "table")]
 pub mod diagnostics;
+pub mod failure;
 pub mod generic;
 pub mod model;
 pub mod null_space;
@@ -22,6 +23,7 @@ pub mod trajectory;
 pub use arm::Arm;
 #[cfg(feature = "table")]
 pub use diagnostics::TableErrors;
+pub use failure::{Failure, LockedJoints};
 pub use generic::SerialChain;
 #[cfg(feature = "table")]
 pub use model::Model;

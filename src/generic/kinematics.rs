@@ -65,6 +65,11 @@ impl<const N: usize> SerialChain<N> {
         self.frames(&self.inputs(q)).world_from_frame
     }
 
+    /// Each frame as seen from the one before, the base for the first.
+    pub(crate) fn link_transforms(&self, q: &SVector<f64, N>) -> [IsometryMatrix3<f64>; N] {
+        self.transforms(&self.inputs(q))
+    }
+
     pub(super) fn inputs(&self, q: &SVector<f64, N>) -> [JointInput; N] {
         core::array::from_fn(|i| match self.joints[i].kind {
             JointKind::Revolute => {
