@@ -4,6 +4,7 @@
 pub use nalgebra;
 
 pub mod arm;
+pub mod compensation;
 #[cfg(feature = "table")]
 pub mod diagnostics;
 pub mod failure;
@@ -21,6 +22,7 @@ pub mod tool_path;
 pub mod trajectory;
 
 pub use arm::Arm;
+pub use compensation::{Compensation, Controller, Cycle, Law, Projector, Status};
 #[cfg(feature = "table")]
 pub use diagnostics::TableErrors;
 pub use failure::{Failure, LockedJoints};
