@@ -1,2 +1,75 @@
-//! TBD
-fn main() {}
+//! The program `ulna`. Data goes to stdout, everything else to stderr.
+//!
+//! Exit codes: 0, or 1 for what is wrong with the input or with what was checked, or 2 for a wrong command line.
+
+mod check;
+mod console;
+mod joints;
+mod reproduce;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use ulna::TableErrors;
+
+/// A table of a robot arm in, unrolled Rust dynamics out
+///
+/// Without a command: `ulna reproduce`.
+#[derive(Parser)]
+#[command(version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Reproduce(reproduce::Arguments),
+    Check(check::Arguments),
+}
+
+/// What a command that ran to its end found.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    /// All is well: exit code 0.
+    Pass,
+    /// It has said on stderr what is not: exit code 1.
+    Fail,
+}
+
+impl Command {
+    fn run(self, out: &mut dyn Write) -> anyhow::Result<Verdict> {
+        match self {
+            Self::Reproduce(arguments) => reproduce::run(&arguments, out),
+            Self::Check(arguments) => check::run(&arguments, out),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    let Cli { command } = Cli::parse();
+    let command = command.unwrap_or_else(|| Command::Reproduce(reproduce::Arguments::default()));
+    let mut out = io::stdout().lock();
+    let outcome = command
+        .run(&mut out)
+        .and_then(|verdict| Ok(out.flush().map(|()| verdict)?));
+    match outcome {
+        Ok(Verdict::Pass) => ExitCode::SUCCESS,
+        Ok(Verdict::Fail) => ExitCode::FAILURE,
+        // Whoever reads stdout has seen enough, as in `ulna cost TABLE | head -3`.
+        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            match error.downcast_ref::<TableErrors>() {
+                Some(errors) => console::report(errors),
+                None => console::error(&format!("{error:#}")),
+            }
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    let io = error.downcast_ref::<io::Error>();
+    io.is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}

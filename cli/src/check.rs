@@ -1,0 +1,102 @@
+//! `ulna check`: reads tables and says what is in them, or what is wrong with them.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use ulna::nalgebra::DMatrix;
+use ulna::{Arm, JointKind, Model, SerialChain, TaskRow, proof};
+
+use crate::joints::{ForChain, with_chain};
+use crate::{Verdict, console};
+
+/// Read tables: a summary of each arm, or every error with its line
+#[derive(Args)]
+#[command(after_help = "Example:\n  ulna check arms/ssrms.toml arms/planar_2r.toml")]
+pub(crate) struct Arguments {
+    /// Arm tables (TOML)
+    #[arg(required = true, value_name = "TABLE")]
+    tables: Vec<PathBuf>,
+}
+
+pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
+    let mut verdict = Verdict::Pass;
+    for path in &arguments.tables {
+        match Model::lint(path) {
+            Ok((model, warnings)) => {
+                console::report(&warnings);
+                if is_singular_everywhere(&model) {
+                    console::warning(&format!(
+                        "{}: w_D is 0 in every configuration: the rows of the task depend on each other",
+                        path.display()
+                    ));
+                }
+                summarize(path, &model, out)?;
+            }
+            Err(errors) => {
+                console::report(&errors);
+                verdict = Verdict::Fail;
+            }
+        }
+    }
+    Ok(verdict)
+}
+
+fn summarize(path: &Path, model: &Model, out: &mut dyn Write) -> io::Result<()> {
+    let joints = &model.joints;
+    let kinds: Vec<_> = joints.iter().map(|joint| kind(joint.kind)).collect();
+    let rows: Vec<_> = model.task.iter().map(TaskRow::name).collect();
+    let mass: f64 = joints.iter().map(|joint| joint.link.mass).sum();
+    let rated = joints.iter().filter(|joint| joint.rated_torque.is_some());
+    let [x, y, z] = model.gravity;
+    writeln!(out, "{}: ok", path.display())?;
+    writeln!(
+        out,
+        "  arm            {}, as a type {}",
+        model.name,
+        model.type_name()
+    )?;
+    writeln!(
+        out,
+        "  joints         {}: {}",
+        joints.len(),
+        kinds.join(" ")
+    )?;
+    writeln!(out, "  task           {}", rows.join(" "))?;
+    writeln!(out, "  moving mass    {mass} kg")?;
+    writeln!(out, "  gravity        {x} {y} {z} m/s^2")?;
+    writeln!(
+        out,
+        "  rated torque   {} of {} joints",
+        rated.count(),
+        joints.len()
+    )?;
+    writeln!(out, "  sha256         {}", model.table_hash)
+}
+
+fn kind(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Revolute => "R",
+        JointKind::Prismatic => "P",
+    }
+}
+
+/// Whether the task's rows of J depend on each other at all of some random configurations, so that w_D is 0 there.
+/// An arm with too many joints to try gets the benefit of the doubt.
+fn is_singular_everywhere(model: &Model) -> bool {
+    struct Try;
+    impl ForChain for Try {
+        type Output = bool;
+        fn run<const N: usize>(self, chain: &SerialChain<N>) -> bool {
+            let singular = |state: proof::State<N>| {
+                let jacobian = chain.geometric_jacobian(&state.q);
+                let rows: Vec<_> = chain.task.iter().map(TaskRow::index).collect();
+                let jacobian = DMatrix::from_fn(rows.len(), N, |i, j| jacobian[(rows[i], j)]);
+                let rounding = 1e-10 * jacobian.amax();
+                jacobian.rank(rounding) < rows.len()
+            };
+            proof::states(chain).take(20).all(singular)
+        }
+    }
+    with_chain(model, Try).unwrap_or(false)
+}

@@ -1,0 +1,24 @@
+//! What goes to stderr. Colours only on a terminal that wants them: `anstream` looks at it and at `NO_COLOR`.
+
+use clap::builder::styling::{AnsiColor, Style};
+use ulna::diagnostics::Diagnostics;
+
+const ERROR: Style = AnsiColor::Red.on_default().bold();
+const WARNING: Style = AnsiColor::Yellow.on_default().bold();
+
+/// Everything that was found in a table.
+pub(crate) fn report(found: &Diagnostics) {
+    if !found.is_empty() {
+        anstream::eprintln!("{}\n", found.to_coloured_string());
+    }
+}
+
+/// One error that is not about a place in a table.
+pub(crate) fn error(message: &str) {
+    anstream::eprintln!("{ERROR}error{ERROR:#}: {message}");
+}
+
+/// One warning that is not about a place in a table.
+pub(crate) fn warning(message: &str) {
+    anstream::eprintln!("{WARNING}warning{WARNING:#}: {message}");
+}

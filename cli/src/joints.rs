@@ -1,0 +1,34 @@
+//! From a number of joints that is known at run time to one that is a type.
+
+use anyhow::bail;
+use ulna::{Model, SerialChain};
+
+/// What to do with a chain, whatever its number of joints.
+pub(crate) trait ForChain {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn run<const N: usize>(self, chain: &SerialChain<N>) -> Self::Output;
+}
+
+/// Runs `work` on the chain of `model`.
+///
+/// # Errors
+/// When the arm has more joints than the program was compiled for.
+pub(crate) fn with_chain<W: ForChain>(model: &Model, work: W) -> anyhow::Result<W::Output> {
+    macro_rules! dispatch {
+        ($most:literal: $($joints:literal)+) => {
+            match model.joints.len() {
+                $($joints => Ok(work.run(&SerialChain::<$joints>::new(model)?)),)+
+                joints => bail!(
+                    "arm `{}` has {joints} joints; this program was compiled for up to {}. \
+                     In a test of your own, `ulna::proof::compare::<{joints}>` does the same",
+                    model.name,
+                    $most,
+                ),
+            }
+        };
+    }
+    dispatch!(12: 1 2 3 4 5 6 7 8 9 10 11 12)
+}

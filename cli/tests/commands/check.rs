@@ -1,0 +1,89 @@
+//! `ulna check`.
+
+use crate::support::{folder_with_bad_table, stderr, stdout, ulna};
+
+#[test]
+fn good_tables_give_a_summary_each() {
+    let run = ulna(&["check", "arms/ssrms.toml", "arms/oblique_6.toml"])
+        .code(0)
+        .stderr("");
+    let out = stdout(&run);
+    assert!(out.contains("arms/ssrms.toml: ok"), "{out}");
+    assert!(out.contains("ssrms, as a type Ssrms"), "{out}");
+    assert!(out.contains("7: R R R R R R R"), "{out}");
+    assert!(out.contains("6: R R P R R R"), "{out}");
+    assert!(out.contains("x y z rx ry\n"), "{out}");
+}
+
+#[test]
+fn bad_tables_give_every_error_and_good_ones_beside_them_their_summary() {
+    let folder = folder_with_bad_table();
+    let bad = folder.path().join("bad.toml");
+    let bad = bad.to_str().unwrap();
+    let run = ulna(&["check", bad, "arms/planar_2r.toml", "arms/absent.toml"]).code(1);
+    let out = stdout(&run);
+    assert!(out.starts_with("arms/planar_2r.toml: ok\n"), "{out}");
+    let err = stderr(&run);
+    for message in [
+        "error: missing key `alpha` of joint 2",
+        "error: `mass` of joint 2 is out of bounds",
+        &format!("{bad}:28:1"),
+        "error: cannot read the file",
+        "arms/absent.toml",
+    ] {
+        assert!(err.contains(message), "{message} is missing in:\n{err}");
+    }
+    assert!(!err.contains('\u{1b}'), "colour in a pipe:\n{err}");
+}
+
+#[test]
+fn a_task_of_dependent_rows_is_warned_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let flat =
+        include_str!("../../../arms/planar_2r.toml").replace("[\"x\", \"y\"]", "[\"x\", \"z\"]");
+    let path = folder.path().join("flat.toml");
+    std::fs::write(&path, flat).unwrap();
+    let run = ulna(&["check", path.to_str().unwrap()]).code(0);
+    let err = stderr(&run);
+    assert!(
+        err.starts_with("warning: ") && err.contains("w_D is 0 in every configuration"),
+        "{err}"
+    );
+}
+
+#[test]
+fn a_wrong_command_line_exits_with_2() {
+    for arguments in [
+        &["check"][..],
+        &["chekc", "arms/ssrms.toml"],
+        &["check", "--colour", "x"],
+    ] {
+        ulna(arguments).code(2).stdout("");
+    }
+}
+
+#[test]
+fn help_goes_to_stdout_with_an_example() {
+    let run = ulna(&["check", "--help"]).code(0).stderr("");
+    assert!(stdout(&run).contains("ulna check arms/ssrms.toml"));
+    ulna(&["--version"]).code(0).stderr("");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_reader_that_hangs_up_is_no_error() {
+    use std::process::{Command, Stdio};
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .unwrap();
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin("ulna"))
+        .current_dir(root)
+        .args(["check", "arms/ssrms.toml"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
+}

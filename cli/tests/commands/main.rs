@@ -1,0 +1,4 @@
+//! The commands, run as a user runs them: exit code, stdout, stderr, and the files that are written or not.
+
+mod check;
+mod support;

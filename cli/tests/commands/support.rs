@@ -1,0 +1,38 @@
+//! The program, run as a user runs it.
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use assert_cmd::assert::Assert;
+
+/// `ulna` with `arguments`, in the repository's root.
+pub(crate) fn ulna(arguments: &[&str]) -> Assert {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let mut command = Command::cargo_bin("ulna").unwrap();
+    command
+        .current_dir(root)
+        .env_remove("NO_COLOR")
+        .args(arguments)
+        .assert()
+}
+
+pub(crate) fn stdout(run: &Assert) -> String {
+    String::from_utf8(run.get_output().stdout.clone()).unwrap()
+}
+
+pub(crate) fn stderr(run: &Assert) -> String {
+    String::from_utf8(run.get_output().stderr.clone()).unwrap()
+}
+
+/// A folder with `bad.toml`, whose joint 2 has neither a sensible mass nor an `alpha`.
+pub(crate) fn folder_with_bad_table() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let good = include_str!("../../../arms/planar_2r.toml");
+    let (first, second) = good.split_once("[[joint]] # elbow").unwrap();
+    let second = second
+        .replace("mass = 1.0", "mass = -1.0")
+        .replace("alpha = 0.0\n", "");
+    let bad = format!("{first}[[joint]]{second}");
+    std::fs::write(folder.path().join("bad.toml"), bad).unwrap();
+    folder
+}
