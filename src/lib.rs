@@ -9,6 +9,7 @@ pub mod compensation;
 pub mod diagnostics;
 pub mod failure;
 pub mod generic;
+pub mod kernel;
 pub mod model;
 pub mod null_space;
 pub mod proof;

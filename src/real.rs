@@ -20,11 +20,27 @@ pub trait Real:
     /// without the instruction a fused multiply-add is a library call, many times slower than both operations.
     fn mul_add(self, factor: Self, summand: Self) -> Self;
 
+    /// `self * factor - subtrahend`, fused like [`Real::mul_add`].
+    fn mul_sub(self, factor: Self, subtrahend: Self) -> Self {
+        self.mul_add(factor, -subtrahend)
+    }
+
+    /// `minuend - self * factor`, fused like [`Real::mul_add`].
+    fn neg_mul_add(self, factor: Self, minuend: Self) -> Self {
+        (-self).mul_add(factor, minuend)
+    }
+
     /// The square root.
     fn sqrt(self) -> Self;
 
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
+
+    /// Sines and cosines of several angles at once.
+    fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
+        let both = angles.map(Self::sin_cos);
+        (both.map(|(sin, _)| sin), both.map(|(_, cos)| cos))
+    }
 }
 
 macro_rules! scalar {
@@ -80,6 +96,21 @@ pub const PRISMATIC_LIMIT: f64 = 1e12;
 /// so that no finite coordinate, however absurd, makes a result NaN.
 ///
 /// A revolute joint's coordinate needs no such rule: it enters by [`Real::sin_cos`] only, which is defined for every finite angle.
+#[inline]
 pub fn prismatic_offset(q: f64) -> f64 {
     q.clamp(-PRISMATIC_LIMIT, PRISMATIC_LIMIT)
+}
+
+/// A revolute joint's coordinate as generated code reads it: beyond 2²⁰ rad, the same angle within ±π.
+///
+/// Generated code adds angles of parallel joints before it takes their sine; of huge angles the sum would be rounded
+/// coarsely, or overflow. The sine and cosine of the angle itself are exact however large it is.
+#[inline]
+pub fn revolute_angle(q: f64) -> f64 {
+    if q.abs() <= 1_048_576.0 {
+        q
+    } else {
+        let (sin, cos) = Real::sin_cos(q);
+        nalgebra::RealField::atan2(sin, cos)
+    }
 }

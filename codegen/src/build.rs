@@ -1,0 +1,184 @@
+//! The build script's door: tables in, one Rust file each into `OUT_DIR`.
+
+use std::fmt;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use ulna::{Model, TableErrors};
+
+use crate::generate;
+
+/// Why a build script could not write its arms.
+#[derive(thiserror::Error)]
+pub enum Error {
+    /// Tables have errors, each told with its file and line.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Tables(Vec<TableErrors>),
+    /// Two tables name their arm alike, so that one file would replace the other.
+    #[error("{second} names its arm `{name}`, as {first} does: rename one of them", first = .first.display(), second = .second.display())]
+    SameName {
+        /// The arm's name.
+        name: String,
+        /// The table that had it first.
+        first: PathBuf,
+        /// The table that repeats it.
+        second: PathBuf,
+    },
+    /// `OUT_DIR` is not set: this is no build script.
+    #[error("OUT_DIR is not set: call compile_arms from a build script, or use `ulna generate`")]
+    NoOutDir,
+    /// The folder of tables could not be read.
+    #[error("cannot read {path}: {source}", path = .path.display())]
+    Read {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A generated file could not be written.
+    #[error("cannot write {path}: {source}", path = .path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+/// `main` of a build script prints its error with `Debug`: the text for people then.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// Generates code for `tables` and writes each arm to `$OUT_DIR/<name>.rs`, for a build script.
+///
+/// ```no_run
+/// // build.rs
+/// fn main() -> Result<(), ulna_codegen::Error> {
+///     ulna_codegen::compile_arms(&["arms/ssrms.toml"])
+/// }
+/// // src/lib.rs:  include!(concat!(env!("OUT_DIR"), "/ssrms.rs"));
+/// ```
+///
+/// Paths are relative to the package's root, where cargo runs build scripts. The script runs again when a table changes.
+///
+/// # Errors
+/// All errors of all tables at once; they are reported to cargo line by line too. Nothing is written then.
+pub fn compile_arms(tables: &[impl AsRef<Path>]) -> Result<(), Error> {
+    for table in tables {
+        println!("cargo::rerun-if-changed={}", table.as_ref().display());
+    }
+    report(compile_into_out_dir(tables).map(drop))
+}
+
+/// [`compile_arms`] for every table of a folder, in alphabetical order, and `$OUT_DIR/arms.rs` over them:
+/// it includes every arm, and defines a macro that lists them.
+///
+/// `for_each_arm!(callback)` expands to `callback! { (Ssrms, ssrms, 7) … }`: type, name and joints of each.
+///
+/// # Errors
+/// As [`compile_arms`], and if the folder cannot be read.
+pub fn compile_folder(folder: impl AsRef<Path>) -> Result<(), Error> {
+    let folder = folder.as_ref();
+    println!("cargo::rerun-if-changed={}", folder.display());
+    let result = tables_of(folder).and_then(|tables| {
+        let models = compile_into_out_dir(&tables)?;
+        write_to_out_dir("arms", &list(&models))
+    });
+    report(result)
+}
+
+fn tables_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let unreadable = |source| Error::Read {
+        path: folder.to_path_buf(),
+        source,
+    };
+    let mut tables = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "toml")
+        {
+            tables.push(path);
+        }
+    }
+    tables.sort();
+    Ok(tables)
+}
+
+fn list(models: &[Model]) -> String {
+    let includes = models
+        .iter()
+        .map(|model| format!("include!(\"{}.rs\");\n", model.name));
+    let entries = models.iter().map(|model| {
+        let joints = model.joints.len();
+        format!(" ({}, {}, {joints})", model.type_name(), model.name)
+    });
+    format!(
+        "{}\n/// Expands to `callback! {{ (Type, name, joints) … }}` over every arm.\n\
+         #[macro_export]\nmacro_rules! for_each_arm {{\n    \
+         ($callback:ident) => {{ $callback! {{{} }} }};\n}}\n",
+        includes.collect::<String>(),
+        entries.collect::<String>(),
+    )
+}
+
+/// Tells cargo of an error, line by line.
+fn report(result: Result<(), Error>) -> Result<(), Error> {
+    if let Err(error) = &result {
+        for line in error.to_string().lines() {
+            println!("cargo::error={line}");
+        }
+    }
+    result
+}
+
+fn compile_into_out_dir(tables: &[impl AsRef<Path>]) -> Result<Vec<Model>, Error> {
+    let models = load_all(tables)?;
+    for (path, model) in &models {
+        let code = generate(model, &path.display().to_string()).source();
+        write_to_out_dir(&model.name, &code)?;
+    }
+    Ok(models.into_iter().map(|(_, model)| model).collect())
+}
+
+/// Writes `$OUT_DIR/<name>.rs` whole or not at all.
+fn write_to_out_dir(name: &str, text: &str) -> Result<(), Error> {
+    let out_dir = std::env::var_os("OUT_DIR").ok_or(Error::NoOutDir)?;
+    let path = Path::new(&out_dir).join(format!("{name}.rs"));
+    let partial = path.with_extension("rs.partial");
+    fs::write(&partial, text)
+        .and_then(|()| fs::rename(&partial, &path))
+        .map_err(|source| Error::Write { path, source })
+}
+
+fn load_all(tables: &[impl AsRef<Path>]) -> Result<Vec<(&Path, Model)>, Error> {
+    let mut models: Vec<(&Path, Model)> = Vec::new();
+    let mut errors = Vec::new();
+    for table in tables.iter().map(AsRef::as_ref) {
+        match Model::load(table) {
+            Ok(model) => models.push((table, model)),
+            Err(error) => errors.push(error),
+        }
+    }
+    if !errors.is_empty() {
+        return Err(Error::Tables(errors));
+    }
+    for (i, (second, model)) in models.iter().enumerate() {
+        if let Some((first, _)) = models[..i]
+            .iter()
+            .find(|(_, other)| other.name == model.name)
+        {
+            return Err(Error::SameName {
+                name: model.name.clone(),
+                first: first.to_path_buf(),
+                second: second.to_path_buf(),
+            });
+        }
+    }
+    Ok(models)
+}

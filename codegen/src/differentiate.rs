@@ -1,0 +1,123 @@
+//! Derivatives by the joint coordinates, built on the graph and so simplified while they are built.
+
+use std::collections::HashMap;
+
+use crate::graph::{Expr, Graph, Id, Input, Node};
+
+/// The nodes that `outputs` need, arguments first.
+pub fn reachable(graph: &Graph, outputs: impl IntoIterator<Item = Id>) -> Vec<Id> {
+    let mut needed = vec![false; graph.len()];
+    let mut open: Vec<Id> = outputs.into_iter().collect();
+    let mut found = Vec::new();
+    while let Some(id) = open.pop() {
+        if std::mem::replace(&mut needed[id.index()], true) {
+            continue;
+        }
+        found.push(id);
+        if let Node::Apply(_, a, b) = graph.node(id) {
+            open.extend([a, b]);
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+/// Forward (tangent) derivatives: ∂(each of `outputs`)/∂q_`joint`.
+pub fn forward<'g>(graph: &'g Graph, outputs: &[Expr<'g>], joint: usize) -> Vec<Expr<'g>> {
+    let zero = graph.constant(0.0);
+    let mut tangents: HashMap<Id, Expr<'g>> = HashMap::new();
+    for id in reachable(graph, outputs.iter().map(|e| e.id())) {
+        let tangent = match graph.node(id) {
+            Node::Constant(_) => zero,
+            Node::Input(input) => input_derivative(graph, input, joint),
+            Node::Apply(op, a, b) => {
+                let (da, db) = (tangents[&a], tangents[&b]);
+                if da.is_zero() && db.is_zero() {
+                    zero
+                } else {
+                    let row = op.row();
+                    let [pa, pb] = (row.partials)(graph.expr(a), graph.expr(b), graph.expr(id));
+                    match row.arity {
+                        1 => pa * da,
+                        _ => pa * da + pb * db,
+                    }
+                }
+            }
+        };
+        tangents.insert(id, tangent);
+    }
+    outputs.iter().map(|e| tangents[&e.id()]).collect()
+}
+
+fn input_derivative(graph: &Graph, input: Input, joint: usize) -> Expr<'_> {
+    let turns = |angle: usize| graph.angle(angle).joints.contains(&joint);
+    match input {
+        Input::Q(i) if i == joint => graph.constant(1.0),
+        Input::Sin(angle) if turns(angle) => graph.input(Input::Cos(angle)),
+        Input::Cos(angle) if turns(angle) => -graph.input(Input::Sin(angle)),
+        _ => graph.constant(0.0),
+    }
+}
+
+/// Reverse (adjoint) derivatives: Σ seed · ∂output/∂q_i over all pairs of `seeded`, for each of `joints` joints.
+///
+/// One sweep gives the whole gradient, at a small multiple of the cost of the outputs themselves
+/// (Griewank and Walther, Evaluating Derivatives, chapter 4).
+pub fn reverse<'g>(
+    graph: &'g Graph,
+    seeded: &[(Expr<'g>, Expr<'g>)],
+    joints: usize,
+) -> Vec<Expr<'g>> {
+    let zero = graph.constant(0.0);
+    let mut adjoints: HashMap<Id, Expr<'g>> = HashMap::new();
+    let add = |adjoints: &mut HashMap<Id, Expr<'g>>, id: Id, summand: Expr<'g>| {
+        let sum = adjoints.entry(id).or_insert(zero);
+        *sum = *sum + summand;
+    };
+    for (output, seed) in seeded {
+        add(&mut adjoints, output.id(), *seed);
+    }
+    let mut gradient = vec![zero; joints];
+    let mut angles: Vec<(usize, Expr<'g>)> = Vec::new();
+    let order = reachable(graph, seeded.iter().map(|(output, _)| output.id()));
+    for id in order.into_iter().rev() {
+        let adjoint = adjoints.get(&id).copied().unwrap_or(zero);
+        if adjoint.is_zero() {
+            continue;
+        }
+        match graph.node(id) {
+            Node::Constant(_) => {}
+            Node::Input(Input::Q(i)) => gradient[i] = gradient[i] + adjoint,
+            Node::Input(Input::Sin(a)) => angles.push((a, adjoint * graph.input(Input::Cos(a)))),
+            Node::Input(Input::Cos(a)) => angles.push((a, -(adjoint * graph.input(Input::Sin(a))))),
+            Node::Input(_) => {}
+            Node::Apply(op, a, b) => {
+                let row = op.row();
+                let [pa, pb] = (row.partials)(graph.expr(a), graph.expr(b), graph.expr(id));
+                add(&mut adjoints, a, adjoint * pa);
+                if row.arity == 2 {
+                    add(&mut adjoints, b, adjoint * pb);
+                }
+            }
+        }
+    }
+    sum_over_angles(graph, &mut angles, &mut gradient);
+    gradient
+}
+
+/// Adds each angle's adjoint to the joints that turn it, longest sums first, so that joints share partial sums.
+fn sum_over_angles<'g>(
+    graph: &'g Graph,
+    angles: &mut [(usize, Expr<'g>)],
+    gradient: &mut [Expr<'g>],
+) {
+    let length = |angle: usize| graph.angle(angle).joints.len();
+    angles.sort_by_key(|(angle, _)| (std::cmp::Reverse(length(*angle)), *angle));
+    for pair in angles.chunk_by(|a, b| a.0 == b.0) {
+        let zero = graph.constant(0.0);
+        let total = pair.iter().fold(zero, |sum, (_, adjoint)| sum + *adjoint);
+        for joint in graph.angle(pair[0].0).joints {
+            gradient[joint] = gradient[joint] + total;
+        }
+    }
+}

@@ -1,0 +1,335 @@
+//! Steps of a program as Rust expressions.
+//!
+//! A value that is used once stands where it is used, if that stays readable; the others are named.
+//! A product that only a sum needs becomes a multiply-add: [`ulna::Real`] fuses it where the target can.
+
+use std::f64::consts;
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::graph::{AngleSum, Input};
+use crate::op::Op;
+use crate::schedule::{Operand, Output, Program, Step};
+
+/// The most operations that an unnamed value may have in it.
+const INLINE: usize = 5;
+
+/// Binding strength of an expression's outermost operator.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
+    Sum,
+    Product,
+    Negation,
+    Atom,
+}
+
+struct Code {
+    tokens: TokenStream,
+    level: Level,
+}
+
+impl Code {
+    fn atom(tokens: TokenStream) -> Self {
+        Self {
+            tokens,
+            level: Level::Atom,
+        }
+    }
+
+    /// The tokens, in parentheses unless they bind at least as strongly as `level`.
+    fn at(&self, level: Level) -> TokenStream {
+        let tokens = &self.tokens;
+        if self.level >= level {
+            quote!(#tokens)
+        } else {
+            quote!((#tokens))
+        }
+    }
+}
+
+/// A program's steps as named values and the expressions of its outputs.
+pub(super) struct Writer<'p> {
+    program: &'p Program,
+    /// The name of each step that has one.
+    names: Vec<Option<Ident>>,
+    angle_names: Vec<String>,
+}
+
+impl<'p> Writer<'p> {
+    /// Decides which steps are named.
+    pub(super) fn new(program: &'p Program) -> Self {
+        let mut names = Vec::with_capacity(program.steps.len());
+        let mut next = 0_usize;
+        for inline in inlined(program) {
+            names.push((!inline).then(|| {
+                next += 1;
+                format_ident!("t{}", next)
+            }));
+        }
+        Self {
+            program,
+            names,
+            angle_names: angle_names(&program.angles),
+        }
+    }
+
+    /// Every named value and its expression, in order.
+    pub(super) fn named(&self) -> Vec<(Ident, TokenStream)> {
+        let steps = self.names.iter().zip(&self.program.steps);
+        steps
+            .filter_map(|(name, step)| Some((name.clone()?, self.step(step).tokens)))
+            .collect()
+    }
+
+    /// An output as nested arrays.
+    pub(super) fn output(&self, output: &Output<Operand>) -> TokenStream {
+        let mut rows: Vec<TokenStream> = output
+            .elements
+            .iter()
+            .map(|e| self.operand(*e).tokens)
+            .collect();
+        for length in output.shape.iter().rev() {
+            rows = rows
+                .chunks(*length)
+                .map(|row| quote!([#(#row),*]))
+                .collect();
+        }
+        quote!(#(#rows)*)
+    }
+
+    /// Names of an angle's sine and cosine; none for one that is not used.
+    pub(super) fn angle(&self, index: usize) -> (Option<Ident>, Option<Ident>) {
+        let name = |prefix, input| {
+            self.uses_input(input)
+                .then(|| format_ident!("{prefix}{}", self.angle_names[index]))
+        };
+        (name("s", Input::Sin(index)), name("c", Input::Cos(index)))
+    }
+
+    /// Whether the program reads the argument of that name.
+    pub(super) fn uses_argument(&self, name: &str) -> bool {
+        let reads = |operand: Operand| match operand {
+            Operand::Input(Input::Q(_)) => name == "q",
+            Operand::Input(Input::Qd(_)) => name == "qd",
+            Operand::Input(Input::Qdd(_)) => name == "qdd",
+            Operand::Input(Input::Tau(_)) => name == "tau",
+            _ => false,
+        };
+        self.any_operand(reads) || (name == "q" && !self.program.angles.is_empty())
+    }
+
+    fn uses_input(&self, input: Input) -> bool {
+        self.any_operand(|operand| operand == Operand::Input(input))
+    }
+
+    fn any_operand(&self, is: impl Fn(Operand) -> bool) -> bool {
+        let outputs = self.program.outputs.iter();
+        self.program
+            .steps
+            .iter()
+            .any(|step| is(step.a) || is(step.b))
+            || outputs.flat_map(|output| &output.elements).any(|e| is(*e))
+    }
+
+    fn operand(&self, operand: Operand) -> Code {
+        match operand {
+            Operand::Constant(value) => {
+                let value = literal(value);
+                Code::atom(quote!(R::of(#value)))
+            }
+            Operand::Input(input) => Code::atom(self.input(input)),
+            Operand::Step(index) => match &self.names[index] {
+                Some(name) => Code::atom(quote!(#name)),
+                None => self.step(&self.program.steps[index]),
+            },
+        }
+    }
+
+    fn input(&self, input: Input) -> TokenStream {
+        let indexed = |name: &str, index: usize| {
+            let (name, index) = (format_ident!("{name}"), Literal::usize_unsuffixed(index));
+            quote!(#name[#index])
+        };
+        let named = |prefix: &str, angle: usize| {
+            let name = format_ident!("{prefix}{}", self.angle_names[angle]);
+            quote!(#name)
+        };
+        match input {
+            Input::Q(i) => indexed("q", i),
+            Input::Qd(i) => indexed("qd", i),
+            Input::Qdd(i) => indexed("qdd", i),
+            Input::Tau(i) => indexed("tau", i),
+            Input::Sin(angle) => named("s", angle),
+            Input::Cos(angle) => named("c", angle),
+        }
+    }
+
+    fn step(&self, step: &Step) -> Code {
+        let fused = match step.op {
+            Op::Add => {
+                let (first, second) = (self.product(step.a), self.product(step.b));
+                let first = first.map(|factors| self.fused(factors, "mul_add", step.b));
+                first.or_else(|| second.map(|factors| self.fused(factors, "mul_add", step.a)))
+            }
+            Op::Sub => {
+                let (first, second) = (self.product(step.a), self.product(step.b));
+                let second = second.map(|factors| self.fused(factors, "neg_mul_add", step.a));
+                second.or_else(|| first.map(|factors| self.fused(factors, "mul_sub", step.b)))
+            }
+            _ => None,
+        };
+        fused.unwrap_or_else(|| self.plain(step))
+    }
+
+    fn plain(&self, step: &Step) -> Code {
+        let (level, left, right) = match step.op {
+            Op::Add | Op::Sub => (Level::Sum, Level::Sum, Level::Product),
+            Op::Mul | Op::Div => (Level::Product, Level::Product, Level::Negation),
+            Op::Neg => (Level::Negation, Level::Negation, Level::Atom),
+            Op::Sqrt => (Level::Atom, Level::Atom, Level::Atom),
+        };
+        let (a, b) = (
+            self.operand(step.a).at(left),
+            self.operand(step.b).at(right),
+        );
+        Code {
+            tokens: (step.op.row().tokens)(&a, &b),
+            level,
+        }
+    }
+
+    /// The factors of an operand that is a product needed nowhere else.
+    fn product(&self, operand: Operand) -> Option<(Operand, Operand)> {
+        match operand {
+            Operand::Step(index) if self.names[index].is_none() => {
+                let Step { op, a, b } = self.program.steps[index];
+                (op == Op::Mul).then_some((a, b))
+            }
+            _ => None,
+        }
+    }
+
+    fn fused(&self, (a, b): (Operand, Operand), method: &str, other: Operand) -> Code {
+        // A number reads better as the argument.
+        let (a, b) = match a {
+            Operand::Constant(_) => (b, a),
+            _ => (a, b),
+        };
+        let method = format_ident!("{method}");
+        let receiver = self.operand(a).at(Level::Atom);
+        let (factor, other) = (self.operand(b).tokens, self.operand(other).tokens);
+        Code::atom(quote!(#receiver.#method(#factor, #other)))
+    }
+}
+
+/// Which steps are written where they are used: those used once and short, and products that a sum can fuse.
+fn inlined(program: &Program) -> Vec<bool> {
+    let mut uses = vec![0_usize; program.steps.len()];
+    let mut summed = vec![false; program.steps.len()];
+    let mut count = |operand: Operand, in_sum: bool| {
+        if let Operand::Step(index) = operand {
+            uses[index] += 1;
+            summed[index] |= in_sum;
+        }
+    };
+    for step in &program.steps {
+        let in_sum = matches!(step.op, Op::Add | Op::Sub);
+        count(step.a, in_sum);
+        if step.op.row().arity == 2 {
+            count(step.b, in_sum);
+        }
+    }
+    for element in program.outputs.iter().flat_map(|output| &output.elements) {
+        count(*element, false);
+    }
+    let mut sizes: Vec<usize> = Vec::with_capacity(program.steps.len());
+    let mut inline = Vec::with_capacity(program.steps.len());
+    for (index, step) in program.steps.iter().enumerate() {
+        let size = |operand: Operand| match operand {
+            Operand::Step(index) if inline[index] => sizes[index],
+            _ => 0,
+        };
+        let own = match step.op.row().arity {
+            1 => 1 + size(step.a),
+            _ => 1 + size(step.a) + size(step.b),
+        };
+        let fusible = step.op == Op::Mul && summed[index];
+        sizes.push(own);
+        inline.push(uses[index] == 1 && (own <= INLINE || fusible));
+    }
+    inline
+}
+
+/// A short name for each angle: the joints' numbers, from 1.
+fn angle_names(angles: &[AngleSum]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for angle in angles {
+        let numbers: Vec<String> = angle.joints.iter().map(|i| (i + 1).to_string()).collect();
+        let separator = if angle.joints.iter().all(|i| *i < 9) {
+            ""
+        } else {
+            "_"
+        };
+        let mut name = numbers.join(separator);
+        while names.contains(&name) {
+            name.push('b');
+        }
+        names.push(name);
+    }
+    names
+}
+
+/// A number as a literal that reads back to the same bits and that no lint takes for a constant of mathematics.
+pub(super) fn literal(value: f64) -> TokenStream {
+    if value.is_sign_negative() {
+        let positive = literal(-value);
+        return quote!(-#positive);
+    }
+    if value.is_infinite() {
+        return quote!(::core::primitive::f64::INFINITY);
+    }
+    let constant = CONSTANTS.iter().find(|(_, constant)| *constant == value);
+    if let Some((name, _)) = constant {
+        let name = format_ident!("{name}");
+        return quote!(::core::f64::consts::#name);
+    }
+    let digits = format!("{value:?}");
+    // An exponent tells a measured 3.14 from a careless π.
+    let mistaken = CONSTANTS.iter().any(|(_, constant)| {
+        let places = digits.len().saturating_sub(2);
+        constant.to_string().starts_with(&digits) || format!("{constant:.places$}") == digits
+    });
+    let literal = if mistaken && digits.len() > 3 {
+        format!("{digits}e0")
+    } else {
+        digits
+    };
+    let literal: Literal = literal
+        .parse()
+        .unwrap_or_else(|_| Literal::f64_unsuffixed(value));
+    quote!(#literal)
+}
+
+/// The constants of mathematics that have a name in `core`.
+const CONSTANTS: [(&str, f64); 19] = [
+    ("E", consts::E),
+    ("FRAC_1_PI", consts::FRAC_1_PI),
+    ("FRAC_1_SQRT_2", consts::FRAC_1_SQRT_2),
+    ("FRAC_2_PI", consts::FRAC_2_PI),
+    ("FRAC_2_SQRT_PI", consts::FRAC_2_SQRT_PI),
+    ("FRAC_PI_2", consts::FRAC_PI_2),
+    ("FRAC_PI_3", consts::FRAC_PI_3),
+    ("FRAC_PI_4", consts::FRAC_PI_4),
+    ("FRAC_PI_6", consts::FRAC_PI_6),
+    ("FRAC_PI_8", consts::FRAC_PI_8),
+    ("LN_2", consts::LN_2),
+    ("LN_10", consts::LN_10),
+    ("LOG2_E", consts::LOG2_E),
+    ("LOG2_10", consts::LOG2_10),
+    ("LOG10_2", consts::LOG10_2),
+    ("LOG10_E", consts::LOG10_E),
+    ("PI", consts::PI),
+    ("SQRT_2", consts::SQRT_2),
+    ("TAU", consts::TAU),
+];

@@ -1,0 +1,127 @@
+//! A program as a generic function: sines and cosines first, then one named value after another.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::expression::{Writer, literal};
+use crate::Method;
+use crate::cost::Counts;
+use crate::graph::AngleSum;
+
+/// Names that are declared together. Each `let` opens a scope within which all that follows is nested, and the
+/// compiler recurses over scopes; one declaration for many names keeps the nesting shallow however long the program.
+const NAMES_PER_SCOPE: usize = 128;
+
+/// The name of a method's kernel.
+pub(super) fn kernel_name(method: &str) -> Ident {
+    format_ident!("{method}_kernel")
+}
+
+/// The associated function that runs a method's program on any `R: Real`.
+pub(super) fn kernel(method: &Method, joints: usize) -> TokenStream {
+    let (name, program) = (kernel_name(method.name), &method.program);
+    let writer = Writer::new(program);
+    let length = Literal::usize_unsuffixed(joints);
+    let arguments = method.arguments.iter().map(|argument| {
+        let used = if writer.uses_argument(argument) {
+            ""
+        } else {
+            "_"
+        };
+        let argument = format_ident!("{used}{argument}");
+        quote!(#argument: &[R; #length])
+    });
+    let types: Vec<TokenStream> = program
+        .outputs
+        .iter()
+        .map(|o| array_type(&o.shape))
+        .collect();
+    let outputs: Vec<TokenStream> = program.outputs.iter().map(|o| writer.output(o)).collect();
+    let (result, value) = match (types.as_slice(), outputs.as_slice()) {
+        ([result], [value]) => (quote!(#result), quote!(#value)),
+        (types, values) => (quote!((#(#types),*)), quote!((#(#values),*))),
+    };
+    let doc = documentation(method).map(|line| quote!(#[doc = #line]));
+    let angles = angles(&writer, &program.angles);
+    let body = statements(&writer.named());
+    quote! {
+        #(#doc)*
+        #[inline]
+        pub fn #name<R: ::ulna::Real>(#(#arguments),*) -> #result {
+            #angles
+            #body
+            #value
+        }
+    }
+}
+
+fn documentation(method: &Method) -> [String; 3] {
+    let (name, counts) = (method.name, Counts::of(&method.program));
+    let outputs: Vec<&str> = method
+        .program
+        .outputs
+        .iter()
+        .map(|output| output.name)
+        .collect();
+    [
+        format!(
+            " [`Arm::{name}`](::ulna::Arm::{name}) on any scalar: {}.",
+            outputs.join(", ")
+        ),
+        String::new(),
+        format!(
+            " {} operations, {} sines and cosines. A matrix is an array of its columns.",
+            counts.total, counts.sin_cos
+        ),
+    ]
+}
+
+fn array_type(shape: &[usize]) -> TokenStream {
+    shape.iter().rev().fold(quote!(R), |inner, length| {
+        let length = Literal::usize_unsuffixed(*length);
+        quote!([#inner; #length])
+    })
+}
+
+/// Sines and cosines of all angles, in one call.
+fn angles(writer: &Writer<'_>, angles: &[AngleSum]) -> TokenStream {
+    if angles.is_empty() {
+        return quote!();
+    }
+    let or_underscore = |name: Option<Ident>| name.map_or(quote!(_), |name| quote!(#name));
+    let names = (0..angles.len()).map(|index| writer.angle(index));
+    let (sines, cosines): (Vec<TokenStream>, Vec<TokenStream>) = names
+        .map(|(sine, cosine)| (or_underscore(sine), or_underscore(cosine)))
+        .unzip();
+    let sums = angles.iter().map(|AngleSum { joints, offset }| {
+        let joints = joints.iter().map(|i| Literal::usize_unsuffixed(*i));
+        let sum = quote!(#(q[#joints])+*);
+        if *offset == 0.0 {
+            sum
+        } else {
+            let offset = literal(*offset);
+            quote!(#sum + R::of(#offset))
+        }
+    });
+    quote!(let ([#(#sines),*], [#(#cosines),*]) = R::sin_cos_all([#(#sums),*]);)
+}
+
+fn statements(named: &[(Ident, TokenStream)]) -> TokenStream {
+    let blocks = named.chunks(NAMES_PER_SCOPE).map(|block| {
+        let names = block.iter().map(|(name, _)| name);
+        let declaration = match block {
+            // A short program is read top to bottom.
+            _ if named.len() <= NAMES_PER_SCOPE => {
+                let lets = block
+                    .iter()
+                    .map(|(name, value)| quote!(let #name = #value;));
+                return quote!(#(#lets)*);
+            }
+            [(only, _)] => quote!(let #only;),
+            _ => quote!(let (#(#names),*);),
+        };
+        let assignments = block.iter().map(|(name, value)| quote!(#name = #value;));
+        quote!(#declaration #(#assignments)*)
+    });
+    quote!(#(#blocks)*)
+}

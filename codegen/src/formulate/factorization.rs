@@ -1,0 +1,67 @@
+//! M = U D Uᵀ with U unit upper triangular, the tip's pivot first, without square roots.
+//!
+//! From the tip because there M is simplest: its last pivots are constants or nearly so.
+
+use crate::graph::Expr;
+
+/// The factors of a symmetric positive definite matrix.
+pub struct Factors<'g> {
+    /// U above the diagonal, by rows.
+    upper: Vec<Vec<Expr<'g>>>,
+    /// The pivots.
+    pub pivots: Vec<Expr<'g>>,
+    /// One over the pivots.
+    inverse_pivots: Vec<Expr<'g>>,
+}
+
+/// Factors the matrix.
+pub fn factor<'g>(matrix: &[Vec<Expr<'g>>]) -> Factors<'g> {
+    let n = matrix.len();
+    let mut rest: Vec<Vec<Expr<'g>>> = matrix.to_vec();
+    let mut upper = rest.clone();
+    let mut pivots = Vec::new();
+    let mut inverse_pivots = Vec::new();
+    for k in (0..n).rev() {
+        let pivot = rest[k][k];
+        let inverse = pivot.of(1.0) / pivot;
+        for i in 0..k {
+            upper[i][k] = rest[i][k] * inverse;
+        }
+        for i in 0..k {
+            for j in i..k {
+                rest[i][j] = rest[i][j] - upper[i][k] * rest[j][k];
+            }
+        }
+        pivots.push(pivot);
+        inverse_pivots.push(inverse);
+    }
+    pivots.reverse();
+    inverse_pivots.reverse();
+    Factors {
+        upper,
+        pivots,
+        inverse_pivots,
+    }
+}
+
+impl<'g> Factors<'g> {
+    /// x of (U D Uᵀ) x = b.
+    pub fn solve(&self, b: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let n = b.len();
+        let mut x = b.to_vec();
+        for k in (0..n).rev() {
+            for i in 0..k {
+                x[i] = x[i] - self.upper[i][k] * x[k];
+            }
+        }
+        for (x, inverse) in x.iter_mut().zip(&self.inverse_pivots) {
+            *x = *x * *inverse;
+        }
+        for k in 0..n {
+            for i in 0..k {
+                x[k] = x[k] - self.upper[i][k] * x[i];
+            }
+        }
+        x
+    }
+}

@@ -1,0 +1,126 @@
+//! Inverse dynamics by Newton and Euler's recursion (Luh, Walker and Paul 1980; Craig, chapter 6), on the base
+//! parameters, about the joints' origins, group by group.
+//!
+//! The motion of a link enters through Λ = [α]× + [ω]×[ω]×, which takes a fixed vector of the link to the
+//! acceleration that its rotation gives it (Khalil and Kleinfinger 1987).
+
+use ulna::JointKind;
+
+use super::body::Body;
+use super::chain::Chain;
+use super::vector::Vec3;
+use crate::graph::Expr;
+
+/// Motion of a link.
+#[derive(Clone, Copy)]
+struct Motion<'g> {
+    velocity: Vec3<'g>,
+    angular_acceleration: Vec3<'g>,
+    /// Of the joint's origin, gravity taken off.
+    acceleration: Vec3<'g>,
+}
+
+impl<'g> Motion<'g> {
+    fn map(self, f: impl Fn(Vec3<'g>) -> Vec3<'g>) -> Self {
+        Self {
+            velocity: f(self.velocity),
+            angular_acceleration: f(self.angular_acceleration),
+            acceleration: f(self.acceleration),
+        }
+    }
+
+    /// Λ, by rows.
+    fn lambda(&self) -> [Vec3<'g>; 3] {
+        let ([x, y, z], [ax, ay, az]) = (self.velocity.0, self.angular_acceleration.0);
+        let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
+        [
+            Vec3([-(yy + zz), xy - az, xz + ay]),
+            Vec3([xy + az, -(xx + zz), yz - ax]),
+            Vec3([xz - ay, yz + ax, -(xx + yy)]),
+        ]
+    }
+}
+
+fn times<'g>(rows: &[Vec3<'g>; 3], v: Vec3<'g>) -> Vec3<'g> {
+    Vec3(rows.map(|row| row.dot(v)))
+}
+
+/// τ for velocities `qd` and accelerations `qdd`; zeros fold, so that gravity alone or bias alone costs what it needs.
+pub fn inverse_dynamics<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let motions = outward(chain, qd, qdd);
+    let zero = chain.zero();
+    let (mut force, mut moment) = (zero, zero);
+    let mut torques = vec![chain.graph.constant(0.0); chain.len()];
+    for group in chain.groups.iter().rev() {
+        for i in group.joints.clone().rev() {
+            let joint = &chain.joints[i];
+            let body = Body::constant(chain.graph, &joint.body).turn_z(joint.group_from_own);
+            let (own_force, own_moment) = wrench(&body, &motions[i]);
+            force = force + own_force;
+            moment = moment + own_moment;
+            torques[i] = match joint.kind {
+                JointKind::Revolute => moment.0[2],
+                JointKind::Prismatic => force.0[2],
+            };
+            if i == group.joints.start {
+                force = group.to_parent(force);
+                moment = group.to_parent(moment);
+            }
+            moment = moment + joint.offset.cross(force);
+        }
+    }
+    torques
+}
+
+/// The links' motions, base first, each in its group's axes.
+fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Motion<'g>> {
+    let mut motion = Motion {
+        velocity: chain.zero(),
+        angular_acceleration: chain.zero(),
+        acceleration: -Vec3::constant(chain.graph, chain.gravity),
+    };
+    let mut motions = Vec::new();
+    for group in &chain.groups {
+        for i in group.joints.clone() {
+            let joint = &chain.joints[i];
+            motion.acceleration = motion.acceleration + times(&motion.lambda(), joint.offset);
+            if i == group.joints.start {
+                motion = motion.map(|v| group.from_parent(v));
+            }
+            let [wx, wy, wz] = motion.velocity.0;
+            let across = |rate: Expr<'g>, last| Vec3([wy * rate, -(wx * rate), last]);
+            match joint.kind {
+                JointKind::Revolute => {
+                    motion.angular_acceleration =
+                        motion.angular_acceleration + across(qd[i], qdd[i]);
+                    motion.velocity = Vec3([wx, wy, wz + qd[i]]);
+                }
+                JointKind::Prismatic => {
+                    let coriolis = across(qd[i].of(2.0) * qd[i], qdd[i]);
+                    motion.acceleration = motion.acceleration + coriolis;
+                }
+            }
+            motions.push(motion);
+        }
+    }
+    motions
+}
+
+/// Force and moment about the origin that a body's motion takes:
+/// f = m a + Λ h, n = I α + ω × I ω + h × a; the middle terms of n written with the products that Λ has already.
+fn wrench<'g>(body: &Body<'g>, motion: &Motion<'g>) -> (Vec3<'g>, Vec3<'g>) {
+    let lambda @ [
+        Vec3([lxx, lxy, lxz]),
+        Vec3([lyx, lyy, lyz]),
+        Vec3([lzx, lzy, lzz]),
+    ] = motion.lambda();
+    let ([x, y, z], [ax, ay, az]) = (motion.velocity.0, motion.angular_acceleration.0);
+    let [ixx, iyy, izz, ixy, ixz, iyz] = body.inertia.0;
+    let spin = Vec3([
+        ixx * ax + (izz - iyy) * (y * z) - ixy * lzx + ixz * lyx + iyz * (lyy - lzz),
+        iyy * ay + (ixx - izz) * (x * z) - iyz * lxy + ixy * lzy + ixz * (lzz - lxx),
+        izz * az + (iyy - ixx) * (x * y) - ixz * lyz + iyz * lxz + ixy * (lxx - lyy),
+    ]);
+    let force = motion.acceleration.scale(body.mass) + times(&lambda, body.moment);
+    (force, spin + body.moment.cross(motion.acceleration))
+}

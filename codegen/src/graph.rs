@@ -1,0 +1,391 @@
+//! The expression graph: hash-consed, so that equal expressions are one node, and folded while it is built.
+//!
+//! After this point: no expression stands twice, no constant is left to compute, no sum or product has a neutral
+//! or absorbing operand, and signs have moved outwards as far as sums, where they are free.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::fmt;
+use std::ops;
+
+use crate::op::Op;
+
+/// A node's place in the graph. Arguments always stand before the nodes that use them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Id(u32);
+
+impl Id {
+    /// The place as an index.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What a node is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A number, by its bits.
+    Constant(u64),
+    /// An argument of the function to be generated.
+    Input(Input),
+    /// An operator over earlier nodes; a unary one repeats its argument.
+    Apply(Op, Id, Id),
+}
+
+/// An argument of a generated function. Joints and angles count from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Input {
+    /// Coordinate of a prismatic joint.
+    Q(usize),
+    /// Sine of an angle of the graph.
+    Sin(usize),
+    /// Cosine of an angle of the graph.
+    Cos(usize),
+    /// Velocity of a joint.
+    Qd(usize),
+    /// Acceleration of a joint.
+    Qdd(usize),
+    /// Torque of a joint.
+    Tau(usize),
+}
+
+/// The sum of the coordinates of some revolute joints, plus a constant that is no quarter turn.
+///
+/// Joints about parallel axes turn what hangs on them by their sum; one sine and cosine of the sum
+/// replace the products that the angles one by one would need.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AngleSum {
+    /// The joints, ascending.
+    pub joints: Vec<usize>,
+    /// The constant, rad.
+    pub offset: f64,
+}
+
+/// The graph. Expressions borrow it, so that formulas can be written with operators.
+#[derive(Default)]
+pub struct Graph {
+    nodes: RefCell<Vec<Node>>,
+    places: RefCell<HashMap<Node, Id>>,
+    angles: RefCell<Vec<AngleSum>>,
+}
+
+impl fmt::Debug for Graph {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Graph of {} nodes", self.len())
+    }
+}
+
+impl Graph {
+    /// An empty graph.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// How many nodes there are.
+    pub fn len(&self) -> usize {
+        self.nodes.borrow().len()
+    }
+
+    /// Whether there is no node.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The node at a place of this graph.
+    pub fn node(&self, id: Id) -> Node {
+        self.nodes.borrow()[id.index()]
+    }
+
+    /// The expression at a place of this graph.
+    pub fn expr(&self, id: Id) -> Expr<'_> {
+        Expr { graph: self, id }
+    }
+
+    /// A number.
+    pub fn constant(&self, value: f64) -> Expr<'_> {
+        // 0.0 and -0.0 are one number here.
+        self.intern(Node::Constant((value + 0.0).to_bits()))
+    }
+
+    /// An argument of the generated function.
+    pub fn input(&self, input: Input) -> Expr<'_> {
+        self.intern(Node::Input(input))
+    }
+
+    /// Sine and cosine of a sum of joint angles.
+    pub fn sin_cos(&self, angle: &AngleSum) -> (Expr<'_>, Expr<'_>) {
+        let known = self.angles.borrow().iter().position(|a| a == angle);
+        let index = known.unwrap_or_else(|| {
+            self.angles.borrow_mut().push(angle.clone());
+            self.angles.borrow().len() - 1
+        });
+        (self.input(Input::Sin(index)), self.input(Input::Cos(index)))
+    }
+
+    /// The angle behind [`Input::Sin`] and [`Input::Cos`].
+    pub fn angle(&self, index: usize) -> AngleSum {
+        self.angles.borrow()[index].clone()
+    }
+
+    /// An operator over two expressions, folded.
+    pub fn apply<'g>(&'g self, op: Op, a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
+        match op {
+            Op::Add => a + b,
+            Op::Sub => a - b,
+            Op::Mul => a * b,
+            Op::Div => a / b,
+            Op::Neg => -a,
+            Op::Sqrt => a.sqrt(),
+        }
+    }
+
+    fn intern(&self, node: Node) -> Expr<'_> {
+        let id = *self.places.borrow_mut().entry(node).or_insert_with(|| {
+            let mut nodes = self.nodes.borrow_mut();
+            nodes.push(node);
+            Id(u32::try_from(nodes.len() - 1).expect("a graph of fewer than 2^32 nodes"))
+        });
+        self.expr(id)
+    }
+
+    fn find(&self, node: Node) -> Option<Expr<'_>> {
+        self.places.borrow().get(&node).map(|id| self.expr(*id))
+    }
+}
+
+/// An expression of a graph.
+#[derive(Clone, Copy)]
+pub struct Expr<'g> {
+    graph: &'g Graph,
+    id: Id,
+}
+
+impl PartialEq for Expr<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+}
+
+impl fmt::Debug for Expr<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}", self.graph.node(self.id))
+    }
+}
+
+impl<'g> Expr<'g> {
+    /// The expression's place.
+    pub fn id(self) -> Id {
+        self.id
+    }
+
+    /// The graph that the expression belongs to.
+    pub fn graph(self) -> &'g Graph {
+        self.graph
+    }
+
+    /// A number of the same graph.
+    pub fn of(self, value: f64) -> Self {
+        self.graph.constant(value)
+    }
+
+    /// The value, if it is a number.
+    pub fn value(self) -> Option<f64> {
+        match self.graph.node(self.id) {
+            Node::Constant(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    /// Whether the expression is the number 0.
+    pub fn is_zero(self) -> bool {
+        self.value() == Some(0.0)
+    }
+
+    /// The square root.
+    pub fn sqrt(self) -> Self {
+        match self.value() {
+            Some(value) => self.of(value.sqrt()),
+            None => self.node(Op::Sqrt, self),
+        }
+    }
+
+    fn node(self, op: Op, other: Self) -> Self {
+        self.graph.intern(Node::Apply(op, self.id, other.id))
+    }
+
+    fn sorted(self, other: Self) -> (Self, Self) {
+        if self.id <= other.id {
+            (self, other)
+        } else {
+            (other, self)
+        }
+    }
+
+    /// The arguments, if the expression is `op` over them.
+    pub fn arguments(self, op: Op) -> Option<(Self, Self)> {
+        match self.graph.node(self.id) {
+            Node::Apply(own, a, b) if own == op => Some((self.graph.expr(a), self.graph.expr(b))),
+            _ => None,
+        }
+    }
+
+    /// `x` of `-x`.
+    fn negated(self) -> Option<Self> {
+        self.arguments(Op::Neg).map(|(x, _)| x)
+    }
+
+    /// `c` and `x` of `c + x`, `x - c` or `c - x`, where `c` is a number; and of the number itself.
+    fn raised(self) -> Option<(f64, Self)> {
+        if let Some(c) = self.value() {
+            return Some((c, self.of(0.0)));
+        }
+        if let Some((a, b)) = self.arguments(Op::Add) {
+            return a.value().map(|c| (c, b)).or(b.value().map(|c| (c, a)));
+        }
+        let (a, b) = self.arguments(Op::Sub)?;
+        a.value().map(|c| (c, -b)).or(b.value().map(|c| (-c, a)))
+    }
+
+    /// `c` and `x` of `c * x`, where `c` is a number.
+    fn scaled(self) -> Option<(f64, Self)> {
+        let (a, b) = self.arguments(Op::Mul)?;
+        a.value().map(|c| (c, b)).or(b.value().map(|c| (c, a)))
+    }
+}
+
+// The folding rules, one a line; the first that fits is taken.
+
+impl ops::Neg for Expr<'_> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        if let Some(value) = self.value() {
+            return self.of(-value);
+        }
+        if let Some(x) = self.negated() {
+            return x;
+        }
+        self.node(Op::Neg, self)
+    }
+}
+
+impl ops::Add for Expr<'_> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        match (self.value(), other.value()) {
+            (Some(a), Some(b)) => return self.of(a + b),
+            (Some(0.0), _) => return other,
+            (_, Some(0.0)) => return self,
+            (Some(a), _) if a < 0.0 => return other - self.of(-a),
+            (_, Some(b)) if b < 0.0 => return self - self.of(-b),
+            _ => {}
+        }
+        match (self.negated(), other.negated()) {
+            (Some(a), Some(b)) => return -(a + b),
+            (Some(a), None) => return other - a,
+            (None, Some(b)) => return self - b,
+            _ => {}
+        }
+        if let Some(combined) = combine(self, other, |c, d| c + d) {
+            return combined;
+        }
+        // (c + x) + (d + y) = (c + d) + (x + y)
+        if let (Some((c, x)), Some((d, y))) = (self.raised(), other.raised()) {
+            return self.of(c + d) + (x + y);
+        }
+        let (a, b) = self.sorted(other);
+        a.node(Op::Add, b)
+    }
+}
+
+impl ops::Sub for Expr<'_> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        match (self.value(), other.value()) {
+            (Some(a), Some(b)) => return self.of(a - b),
+            (Some(0.0), _) => return -other,
+            (_, Some(0.0)) => return self,
+            (_, Some(b)) if b < 0.0 => return self + self.of(-b),
+            _ => {}
+        }
+        match (self.negated(), other.negated()) {
+            (Some(a), Some(b)) => return b - a,
+            (Some(a), None) => return -(a + other),
+            (None, Some(b)) => return self + b,
+            _ => {}
+        }
+        if let Some(combined) = combine(self, other, |c, d| c - d) {
+            return combined;
+        }
+        // (c + x) - (d + y) = (c - d) + (x - y)
+        if let (Some((c, x)), Some((d, y))) = (self.raised(), other.raised()) {
+            return self.of(c - d) + (x - y);
+        }
+        // One of a - b and b - a is enough.
+        if let Some(reversed) = self.graph.find(Node::Apply(Op::Sub, other.id, self.id)) {
+            return -reversed;
+        }
+        self.node(Op::Sub, other)
+    }
+}
+
+/// `c x ± d x = (c ± d) x` for numbers `c` and `d`.
+fn combine<'g>(a: Expr<'g>, b: Expr<'g>, sum: fn(f64, f64) -> f64) -> Option<Expr<'g>> {
+    let (c, x) = a.scaled().unwrap_or((1.0, a));
+    let (d, y) = b.scaled().unwrap_or((1.0, b));
+    (x == y).then(|| a.of(sum(c, d)) * x)
+}
+
+impl ops::Mul for Expr<'_> {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        match (self.value(), other.value()) {
+            (Some(a), Some(b)) => return self.of(a * b),
+            (Some(0.0), _) | (_, Some(0.0)) => return self.of(0.0),
+            (Some(1.0), _) => return other,
+            (_, Some(1.0)) => return self,
+            (Some(a), _) if a < 0.0 => return -(self.of(-a) * other),
+            (_, Some(b)) if b < 0.0 => return -(self * other.of(-b)),
+            _ => {}
+        }
+        match (self.negated(), other.negated()) {
+            (Some(a), Some(b)) => return a * b,
+            (Some(a), None) => return -(a * other),
+            (None, Some(b)) => return -(self * b),
+            _ => {}
+        }
+        // c (d x) = (c d) x
+        match (self.value(), other.value(), self.scaled(), other.scaled()) {
+            (Some(c), _, _, Some((d, x))) | (_, Some(c), Some((d, x)), _) => {
+                return self.of(c * d) * x;
+            }
+            _ => {}
+        }
+        let (a, b) = self.sorted(other);
+        a.node(Op::Mul, b)
+    }
+}
+
+impl ops::Div for Expr<'_> {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        match (self.value(), other.value()) {
+            (Some(a), Some(b)) => return self.of(a / b),
+            (Some(0.0), _) => return self,
+            (_, Some(b)) => return self * self.of(1.0 / b),
+            (Some(a), _) if a < 0.0 => return -(self.of(-a) / other),
+            _ => {}
+        }
+        match (self.negated(), other.negated()) {
+            (Some(a), Some(b)) => return a / b,
+            (Some(a), None) => return -(a / other),
+            (None, Some(b)) => return -(self / b),
+            _ => {}
+        }
+        self.node(Op::Div, other)
+    }
+}

@@ -1,0 +1,205 @@
+//! The generated programs, run as they are without a compiler: `ulna verify` proves a table's code this way.
+
+use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3};
+use ulna::{Arm, JointKind, Model, SerialChain, TaskRows, kernel};
+
+use crate::Method;
+use crate::graph::{AngleSum, Input};
+
+/// An arm that evaluates its programs step by step.
+#[derive(Debug)]
+pub struct Interpreter<const N: usize> {
+    chain: SerialChain<N>,
+    methods: Vec<Method>,
+}
+
+/// What the programs' arguments are read from.
+struct Arguments<const N: usize> {
+    q: SVector<f64, N>,
+    qd: SVector<f64, N>,
+    qdd: SVector<f64, N>,
+    tau: SVector<f64, N>,
+}
+
+impl<const N: usize> Arguments<N> {
+    fn read(&self, input: Input, angles: &[AngleSum]) -> f64 {
+        let angle = |index: usize| {
+            let AngleSum { joints, offset } = &angles[index];
+            joints.iter().map(|i| self.q[*i]).sum::<f64>() + offset
+        };
+        match input {
+            Input::Q(i) => self.q[i],
+            Input::Sin(index) => angle(index).sin(),
+            Input::Cos(index) => angle(index).cos(),
+            Input::Qd(i) => self.qd[i],
+            Input::Qdd(i) => self.qdd[i],
+            Input::Tau(i) => self.tau[i],
+        }
+    }
+}
+
+impl<const N: usize> Interpreter<N> {
+    /// The arm of `model`.
+    ///
+    /// # Errors
+    /// When the model has another number of joints than `N`.
+    pub fn new(model: &Model) -> Result<Self, ulna::generic::JointCountError> {
+        Ok(Self {
+            chain: SerialChain::new(model)?,
+            methods: crate::compile(model),
+        })
+    }
+
+    /// The results of a method, each output as a row of numbers.
+    fn run(&self, method: &str, arguments: &Arguments<N>) -> Vec<Vec<f64>> {
+        let Some(Method { program, .. }) = self.methods.iter().find(|m| m.name == method) else {
+            return Vec::new();
+        };
+        let mut all = program
+            .evaluate(|input, angles| arguments.read(input, angles))
+            .into_iter();
+        let lengths = program.outputs.iter().map(|output| output.elements.len());
+        lengths
+            .map(|length| all.by_ref().take(length).collect())
+            .collect()
+    }
+
+    fn at(&self, q: &SVector<f64, N>) -> Arguments<N> {
+        let coordinate = |i: usize| match self.chain.joints[i].kind {
+            JointKind::Revolute => kernel::revolute_angle(q[i]),
+            JointKind::Prismatic => kernel::prismatic_offset(q[i]),
+        };
+        Arguments {
+            q: SVector::from_fn(|i, _| coordinate(i)),
+            qd: SVector::zeros(),
+            qdd: SVector::zeros(),
+            tau: SVector::zeros(),
+        }
+    }
+}
+
+fn matrices<const R: usize, const C: usize, const K: usize>(
+    elements: &[f64],
+) -> [SMatrix<f64, R, C>; K] {
+    std::array::from_fn(|k| SMatrix::from_column_slice(&elements[k * R * C..(k + 1) * R * C]))
+}
+
+/// w_D and ∇w_D by the rule for singular tasks, from the outputs `value`, `gradient`, `pivots`, `diagonal`.
+fn settled<const N: usize>(outputs: &[Vec<f64>]) -> (f64, SVector<f64, N>) {
+    // The rule wants as many pivots as the task has rows; absent ones are filled up as regular.
+    let six =
+        |row: &[f64]| std::array::from_fn::<f64, 6, _>(|i| row.get(i).copied().unwrap_or(1.0));
+    let gradient = std::array::from_fn(|i| outputs[1][i]);
+    kernel::settled_gradient(
+        outputs[0][0],
+        gradient,
+        &six(&outputs[2]),
+        &six(&outputs[3]),
+    )
+}
+
+impl<const N: usize> Arm<N> for Interpreter<N> {
+    fn task(&self) -> TaskRows {
+        self.chain.task
+    }
+
+    fn rated_torque(&self) -> SVector<f64, N> {
+        self.chain.rated_torque()
+    }
+
+    fn forward_kinematics(&self, q: &SVector<f64, N>) -> IsometryMatrix3<f64> {
+        let outputs = self.run("forward_kinematics", &self.at(q));
+        IsometryMatrix3::from_parts(
+            Translation3::new(outputs[1][0], outputs[1][1], outputs[1][2]),
+            Rotation3::from_matrix_unchecked(Matrix3::from_column_slice(&outputs[0])),
+        )
+    }
+
+    fn geometric_jacobian(&self, q: &SVector<f64, N>) -> SMatrix<f64, 6, N> {
+        SMatrix::from_column_slice(&self.run("geometric_jacobian", &self.at(q))[0])
+    }
+
+    fn jacobian_derivatives(&self, q: &SVector<f64, N>) -> [SMatrix<f64, 6, N>; N] {
+        matrices(&self.run("jacobian_derivatives", &self.at(q))[0])
+    }
+
+    fn mass_matrix(&self, q: &SVector<f64, N>) -> SMatrix<f64, N, N> {
+        SMatrix::from_column_slice(&self.run("mass_matrix", &self.at(q))[0])
+    }
+
+    fn mass_matrix_derivatives(&self, q: &SVector<f64, N>) -> [SMatrix<f64, N, N>; N] {
+        matrices(&self.run("mass_matrix_derivatives", &self.at(q))[0])
+    }
+
+    fn dynamic_manipulability(&self, q: &SVector<f64, N>) -> f64 {
+        let mut outputs = self.run("dynamic_manipulability", &self.at(q));
+        outputs.insert(1, vec![0.0; N]);
+        settled::<N>(&outputs).0
+    }
+
+    fn dynamic_manipulability_gradient(&self, q: &SVector<f64, N>) -> (f64, SVector<f64, N>) {
+        settled(&self.run("dynamic_manipulability_gradient", &self.at(q)))
+    }
+
+    fn inverse_dynamics(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        let (qd, qdd) = (*qd, *qdd);
+        let arguments = Arguments {
+            qd,
+            qdd,
+            ..self.at(q)
+        };
+        SVector::from_column_slice(&self.run("inverse_dynamics", &arguments)[0])
+    }
+
+    fn bias_force(&self, q: &SVector<f64, N>, qd: &SVector<f64, N>) -> SVector<f64, N> {
+        let arguments = Arguments {
+            qd: *qd,
+            ..self.at(q)
+        };
+        SVector::from_column_slice(&self.run("bias_force", &arguments)[0])
+    }
+
+    fn gravity_torque(&self, q: &SVector<f64, N>) -> SVector<f64, N> {
+        SVector::from_column_slice(&self.run("gravity_torque", &self.at(q))[0])
+    }
+
+    fn forward_dynamics(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        tau: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        let (qd, tau) = (*qd, *tau);
+        let arguments = Arguments {
+            qd,
+            tau,
+            ..self.at(q)
+        };
+        SVector::from_column_slice(&self.run("forward_dynamics", &arguments)[0])
+    }
+
+    fn mass_matrix_and_derivatives(
+        &self,
+        q: &SVector<f64, N>,
+    ) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) {
+        let outputs = self.run("mass_matrix_and_derivatives", &self.at(q));
+        (
+            SMatrix::from_column_slice(&outputs[0]),
+            matrices(&outputs[1]),
+        )
+    }
+
+    fn jacobian_and_gradient(
+        &self,
+        q: &SVector<f64, N>,
+    ) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
+        let outputs = self.run("jacobian_and_gradient", &self.at(q));
+        let (w, gradient) = settled(&outputs[1..]);
+        (SMatrix::from_column_slice(&outputs[0]), w, gradient)
+    }
+}
