@@ -89,6 +89,7 @@ pub struct TaskPose<const N: usize> {
     pub gradient: SVector<f64, N>,
     /// The moving joints' J, taken apart.
     pub null_space: NullSpace<N>,
+    task: TaskRows,
     locked: LockedJoints<N>,
     projector: Projector,
     whitening: Option<Whitening<N>>,
@@ -152,6 +153,7 @@ impl<const N: usize> TaskPose<N> {
             jacobian,
             gradient: locked.without(&gradient),
             null_space,
+            task,
             locked,
             projector,
             whitening,
@@ -176,7 +178,11 @@ impl<const N: usize> TaskPose<N> {
     /// Jᵀ f for the moving joints and the task's rows of f, times the factor of the rule near singular poses.
     #[inline]
     pub fn lift(&self, wrench: &Vector6<f64>) -> SVector<f64, N> {
-        let torque = self.jacobian.tr_mul(wrench);
+        let mut of_task = Vector6::zeros();
+        for row in self.task.iter() {
+            of_task[row.index()] = wrench[row.index()];
+        }
+        let torque = self.jacobian.tr_mul(&of_task);
         self.locked.without(&torque) * self.fade
     }
 

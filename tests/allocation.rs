@@ -1,0 +1,99 @@
+//! A control cycle allocates nothing, whatever the law, the projector, the backend and the outcome.
+
+use ulna::compensation::FreeTorque;
+use ulna::failure::impact_torque;
+use ulna::nalgebra::{SVector, Vector6};
+use ulna::{
+    Arm, Compensation, Controller, JointState, LockedJoints, Model, Projector, SerialChain, Status,
+};
+use ulna_generated::Ssrms;
+
+fn allocations(work: impl FnOnce()) -> u64 {
+    allocation_counter::measure(work).count_total
+}
+
+fn cycles(arm: &impl Arm<7>) {
+    let wrench = Vector6::new(20.0, 20.0, 20.0, 0.0, 0.0, 0.0);
+    let moving = JointState {
+        q: SVector::from([0.7, -0.6, 1.3, -2.0, 0.3, 3.4, 0.0]),
+        qd: SVector::repeat(0.01),
+        qdd: SVector::repeat(0.02),
+    };
+    let broken = JointState {
+        q: SVector::repeat(f64::NAN),
+        ..moving
+    };
+    let k = SVector::repeat(1e8);
+    let free = FreeTorque {
+        torque: SVector::repeat(5.0),
+        wrench,
+    };
+    let laws = [
+        Compensation::PerJoint(k),
+        Compensation::Projected(k),
+        Compensation::Optimal {
+            before: free,
+            after: free,
+        },
+    ];
+    let joint_2 = LockedJoints::new(&[1]).unwrap();
+    let most = LockedJoints::new(&[0, 1, 2, 3, 4]).unwrap();
+    let mut seen = Vec::new();
+    for law in laws {
+        for projector in [Projector::Static, Projector::DynamicallyConsistent] {
+            for rated in [f64::INFINITY, 250.0, 1.0] {
+                let controller = Controller::new(arm, law)
+                    .with_projector(projector)
+                    .with_rated_torque(SVector::repeat(rated));
+                for locked in [LockedJoints::NONE, joint_2, most] {
+                    for state in [moving, broken] {
+                        let mut status = Status::Nominal;
+                        let count = allocations(|| {
+                            status = controller.cycle(&state, &wrench, locked).status;
+                        });
+                        assert_eq!(count, 0, "{status:?}");
+                        seen.push(status);
+                    }
+                }
+            }
+        }
+    }
+    seen.sort();
+    seen.dedup();
+    assert_eq!(
+        seen,
+        [
+            Status::Nominal,
+            Status::Saturated,
+            Status::NearSingular,
+            Status::Overloaded,
+            Status::NotFinite
+        ]
+    );
+}
+
+#[test]
+fn the_counter_counts() {
+    assert_eq!(allocations(|| drop(std::hint::black_box(Box::new(1)))), 1);
+}
+
+#[test]
+fn a_control_cycle_allocates_nothing_on_a_generated_arm() {
+    cycles(&Ssrms);
+}
+
+#[test]
+fn a_control_cycle_allocates_nothing_on_the_generic_path() {
+    let chain = SerialChain::<7>::new(&Model::load("arms/ssrms.toml").unwrap()).unwrap();
+    cycles(&chain);
+    let state = JointState {
+        q: SVector::repeat(0.3),
+        qd: SVector::repeat(0.1),
+        qdd: SVector::repeat(0.02),
+    };
+    let locked = LockedJoints::new(&[1]).unwrap();
+    let count = allocations(|| {
+        std::hint::black_box(impact_torque(&chain, &state, locked, &Vector6::zeros()));
+    });
+    assert_eq!(count, 0);
+}

@@ -1,0 +1,6 @@
+//! Planned motions, the impact torque of locked joints, and the controller that suppresses it.
+
+mod arms;
+mod compensation;
+mod failure;
+mod trajectory;
