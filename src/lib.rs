@@ -15,6 +15,8 @@ pub mod null_space;
 pub mod proof;
 pub mod real;
 #[cfg(feature = "table")]
+pub mod scenario;
+#[cfg(feature = "table")]
 mod table;
 #[cfg(feature = "table")]
 mod toml_reader;
@@ -32,4 +34,6 @@ pub use generic::SerialChain;
 pub use model::Model;
 pub use model::{Angle, Joint, JointKind, Link, Placement, TaskRow, TaskRows};
 pub use real::Real;
+#[cfg(feature = "table")]
+pub use scenario::Scenario;
 pub use trajectory::{JointLimits, JointState, Trajectory, Trapezoid};

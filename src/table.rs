@@ -38,6 +38,12 @@ pub(crate) enum AngleUnit {
     Radians,
 }
 
+impl AngleUnit {
+    /// The word for each.
+    pub(crate) const WORDS: [(&'static str, Self); 2] =
+        [("deg", Self::Degrees), ("rad", Self::Radians)];
+}
+
 /// `[base]` or `[tool]`.
 pub(crate) struct PlacementTable {
     pub(crate) xyz: Option<Vector>,
@@ -102,9 +108,7 @@ impl ArmTable {
                     "angle_unit",
                     "angle_unit = \"deg\"` or `angle_unit = \"rad\"",
                 )
-                .and_then(|value| {
-                    value.choice(&[("deg", AngleUnit::Degrees), ("rad", AngleUnit::Radians)])
-                })
+                .and_then(|value| value.choice(&AngleUnit::WORDS))
                 .map(|unit| unit.value),
             gravity: fields
                 .optional("gravity", "gravity = [0.0, 0.0, -9.81]")

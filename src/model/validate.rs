@@ -1,7 +1,6 @@
 //! [`ArmTable`] → [`Model`]: units, physical bounds, names. The last stage that can fail on a user's input.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
-use core::ops::RangeInclusive;
 
 use nalgebra::Matrix3;
 
@@ -11,14 +10,9 @@ use crate::diagnostics::{Diagnostic, Sink};
 use crate::table::{
     AngleUnit, ArmTable, Convention, InertiaTable, JointTable, LinkTable, PlacementTable, Vector,
 };
-use crate::toml_reader::Located;
+use crate::toml_reader::{Bound, Located};
 
-/// Numbers outside are a slip of the pen or of the unit. Generous: 100 m of link, the gravity of the Sun.
-struct Bound {
-    range: RangeInclusive<f64>,
-    unit: &'static str,
-    help: &'static str,
-}
+// The bounds are generous: 100 m of link, the gravity of the Sun.
 
 const LENGTH: Bound = Bound {
     range: -100.0..=100.0,
@@ -174,10 +168,10 @@ fn joint(row: &JointTable, unit: Option<AngleUnit>, sink: &Sink) -> Option<Joint
         .alpha
         .as_ref()
         .and_then(|alpha| angle(alpha, unit, sink));
-    let d = row.d.as_ref().and_then(|d| within(d, &LENGTH, sink));
-    let a = row.a.as_ref().and_then(|a| within(a, &LENGTH, sink));
+    let d = row.d.as_ref().and_then(|d| LENGTH.admit(d, sink));
+    let a = row.a.as_ref().and_then(|a| LENGTH.admit(a, sink));
     let rated = row.rated_torque.as_ref();
-    let rated_torque = rated.map(|rated| within(rated, &TORQUE, sink));
+    let rated_torque = rated.map(|rated| TORQUE.admit(rated, sink));
     let link = row.link.as_ref().and_then(|row| link(row, sink));
     Some(Joint {
         kind: row.kind,
@@ -194,7 +188,7 @@ fn joint(row: &JointTable, unit: Option<AngleUnit>, sink: &Sink) -> Option<Joint
 }
 
 fn link(row: &LinkTable, sink: &Sink) -> Option<Link> {
-    let mass = row.mass.as_ref().and_then(|mass| within(mass, &MASS, sink));
+    let mass = row.mass.as_ref().and_then(|mass| MASS.admit(mass, sink));
     let com = row
         .com
         .as_ref()
@@ -212,7 +206,7 @@ fn inertia(row: &Located<InertiaTable>, sink: &Sink) -> Option<[[f64; 3]; 3]> {
     let moments = all_within(&row.value.moments, &MOMENT, sink);
     let products = row.value.products.each_ref();
     let products = products.map(|product| match product {
-        Some(product) => within(product, &MOMENT, sink),
+        Some(product) => MOMENT.admit(product, sink),
         None => Some(0.0),
     });
     let [xx, yy, zz] = moments?;
@@ -243,23 +237,9 @@ fn inertia(row: &Located<InertiaTable>, sink: &Sink) -> Option<[[f64; 3]; 3]> {
     None
 }
 
-fn within(number: &Located<f64>, bound: &Bound, sink: &Sink) -> Option<f64> {
-    if bound.range.contains(&number.value) {
-        return Some(number.value);
-    }
-    let (unit, least, most) = (bound.unit, bound.range.start(), bound.range.end());
-    let message = format!("{} is out of bounds", number.name);
-    sink.push(
-        Diagnostic::error(number.span.clone(), message)
-            .label(format!("must be within {least:?} to {most:?} {unit}"))
-            .help(bound.help),
-    );
-    None
-}
-
 fn all_within(numbers: &Vector, bound: &Bound, sink: &Sink) -> Option<[f64; 3]> {
     let numbers = numbers.each_ref();
-    all(numbers.map(|number| within(number.as_ref()?, bound, sink)))
+    all(numbers.map(|number| bound.admit(number.as_ref()?, sink)))
 }
 
 /// All values, if none is missing.

@@ -2,10 +2,12 @@
 //!
 //! A value that is wrong has been reported to the [`Sink`] by the time it is `None` here; readers only pass that on.
 
+mod bound;
 mod file;
 mod syntax;
 mod value;
 
+pub(crate) use bound::Bound;
 pub(crate) use file::read_file;
 pub(crate) use value::{Located, Value};
 

@@ -36,7 +36,8 @@ pub(super) fn report(text: &str, mut faults: Vec<toml::de::Error>, sink: &Sink) 
         if unclosed {
             diagnostic = diagnostic.help("close the bracket or quote that was opened above");
         } else if duplicate {
-            diagnostic = diagnostic.help("write each key once; `[[joint]]` begins a new joint");
+            diagnostic = diagnostic
+                .help("write each key once; a header in `[[ ]]` begins another entry of a list");
         }
         sink.push(diagnostic);
         if unclosed {

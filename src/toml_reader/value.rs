@@ -15,6 +15,17 @@ pub(crate) struct Located<T> {
     pub(crate) name: String,
 }
 
+impl<T> Located<T> {
+    /// Another value from the same place.
+    pub(crate) fn map<U>(self, f: impl FnOnce(T) -> U) -> Located<U> {
+        Located {
+            value: f(self.value),
+            span: self.span,
+            name: self.name,
+        }
+    }
+}
+
 /// One value of a table or an array.
 #[derive(Clone)]
 pub(crate) struct Value<'t> {
@@ -65,6 +76,30 @@ impl<'t> Value<'t> {
                 self.error(message, format!("{count} here"), help).ok_or(())
             })
             .ok()
+    }
+
+    /// Any number of items that should be finite numbers; those that are not have been reported.
+    pub(crate) fn list_of_numbers(self) -> Option<Located<Vec<Option<Located<f64>>>>> {
+        let place = self.location();
+        let items = self.items("an array of numbers")?;
+        Some(place.map(|()| items.into_iter().map(Value::number).collect()))
+    }
+
+    /// A whole number that is not negative, such as a count.
+    pub(crate) fn whole_number(self) -> Option<Located<u64>> {
+        match self.value {
+            DeValue::Integer(integer) => {
+                let parsed = i128::from_str_radix(integer.as_str(), integer.radix());
+                match parsed.ok().and_then(|number| u64::try_from(number).ok()) {
+                    Some(number) => Some(self.located(number)),
+                    None => {
+                        let message = format!("{} is out of bounds", self.name);
+                        self.error(message, "must be within 0 to 2^64 - 1", "write a count")
+                    }
+                }
+            }
+            _ => self.expected("a whole number"),
+        }
     }
 
     /// A string.
@@ -126,6 +161,11 @@ impl<'t> Value<'t> {
     /// Whether the value is a string.
     pub(crate) fn is_string(&self) -> bool {
         self.value.is_str()
+    }
+
+    /// Whether the value is an array.
+    pub(crate) fn is_array(&self) -> bool {
+        self.value.is_array()
     }
 
     /// The value's place and name.

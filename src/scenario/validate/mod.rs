@@ -1,0 +1,303 @@
+//! [`ScenarioTable`] → [`Scenario`]: numbers of joints, units, bounds. The last stage that can fail on what the file says.
+
+mod experiment;
+mod motion;
+
+use super::arm::ScenarioArm;
+use super::read::{
+    CampaignTable, FailureTable, List, MotionTable, Number, Numbers, ScenarioTable, SearchTable,
+};
+use super::{CampaignSettings, Scenario, SearchGrid};
+use crate::Joint;
+use crate::diagnostics::{Diagnostic, Sink};
+use crate::table::AngleUnit;
+use crate::toml_reader::{Bound, Located};
+
+const DURATION: Bound = Bound {
+    range: 1e-3..=1e5,
+    unit: "s",
+    help: "times are in seconds",
+};
+const CYCLE: Bound = Bound {
+    range: 1e-5..=10.0,
+    unit: "s",
+    help: "a control cycle is in seconds, for example 0.01",
+};
+const COEFFICIENT: Bound = Bound {
+    range: -1e16..=1e16,
+    unit: "",
+    help: "the paper's coefficients are of the size 1e7",
+};
+const STEP: Bound = Bound {
+    range: 1e-6..=1e16,
+    unit: "",
+    help: "a step is positive; the paper's are 1e6 and 1e7",
+};
+const SPREAD: Bound = Bound {
+    range: 0.0..=100.0,
+    unit: "rad (m)",
+    help: "a spread is the largest deviation, not negative",
+};
+const FORCE_SPREAD: Bound = Bound {
+    range: 0.0..=1e7,
+    unit: "N (N m)",
+    help: "a spread is the largest deviation, not negative",
+};
+
+/// The most control cycles in a motion.
+const MAX_CYCLES: f64 = 1e6;
+/// What the lists of a scenario are checked against.
+struct Reader<'s> {
+    sink: &'s Sink,
+    /// How many joints the arm has; `None` as long as it is not known.
+    joint_count: Option<usize>,
+    joints: Option<&'s [Joint]>,
+    unit: Option<AngleUnit>,
+}
+
+impl ScenarioTable {
+    /// The scenario. `arm` is `None` if it has been reported, as is everything else that is wrong.
+    pub(super) fn into_scenario(self, arm: Option<ScenarioArm>, sink: &Sink) -> Option<Scenario> {
+        let reader = Reader {
+            sink,
+            joint_count: match &arm {
+                Some(arm) => Some(arm.joints().len()),
+                None => self.motion.as_ref().and_then(MotionTable::joint_count),
+            },
+            joints: arm.as_ref().map(ScenarioArm::joints),
+            unit: self.angle_unit,
+        };
+        let motion = self.motion.as_ref().and_then(|table| reader.motion(table));
+        let written = self.motion.as_ref();
+        let duration = written
+            .and_then(|table| table.duration.as_ref())
+            .map(|duration| duration.value);
+        let duration = duration.filter(|duration| DURATION.range.contains(duration));
+        let failure = self.failure.as_ref();
+        let failure = failure.and_then(|table| reader.failure(table, duration));
+        let cycle = reader.cycle(&self.cycle, duration);
+        let search = self.search.as_ref().and_then(|table| reader.search(table));
+        let experiments = self
+            .experiments
+            .as_ref()
+            .and_then(|tables| reader.experiments(tables));
+        let campaign = reader.campaign(&self.campaign);
+        let (failed_joints, failure_times) = failure?;
+        Some(Scenario {
+            name: self.name?,
+            description: self.description,
+            motion: motion?,
+            failed_joints,
+            failure_times,
+            cycle: cycle?,
+            search: search?,
+            experiments: experiments?,
+            campaign: campaign?,
+            arm: arm?,
+        })
+    }
+}
+
+impl Reader<'_> {
+    fn failure(
+        &self,
+        table: &FailureTable,
+        duration: Option<f64>,
+    ) -> Option<(Vec<usize>, Vec<f64>)> {
+        let joints = table
+            .joints
+            .as_ref()
+            .and_then(|joints| self.joint_numbers(joints));
+        let joints = joints.map(|mut joints| {
+            joints.sort_unstable();
+            joints
+        });
+        let times = table.times.as_ref().and_then(|times| {
+            self.not_empty(times, "times = [10.0]")?;
+            let check = |time: &Option<Located<f64>>| self.time(time.as_ref()?, duration);
+            let mut checked: Vec<f64> = Vec::new();
+            let read: Vec<_> = times.value.iter().map(check).collect();
+            for (time, written) in read.into_iter().zip(&times.value) {
+                if checked.contains(&time?) {
+                    let written = written.as_ref()?;
+                    let message = format!("{} is there twice", written.name);
+                    self.refuse(&written.span, message, "repeated", "write each time once");
+                    return None;
+                }
+                checked.push(time?);
+            }
+            Some(checked)
+        });
+        Some((joints?, times?))
+    }
+
+    /// A time while the arm moves.
+    fn time(&self, time: &Located<f64>, duration: Option<f64>) -> Option<f64> {
+        if time.value >= 0.0 && duration.is_none_or(|duration| time.value < duration) {
+            return Some(time.value);
+        }
+        let most = match duration {
+            Some(duration) => format!("from 0 to below {duration} s"),
+            None => "not negative".to_owned(),
+        };
+        let message = format!("{} is not while the arm moves", time.name);
+        self.refuse(
+            &time.span,
+            message,
+            most,
+            "times count in seconds from the motion's start",
+        );
+        None
+    }
+
+    /// Joints counted from 1 in the text, from 0 in the result; each once.
+    fn joint_numbers(&self, list: &Located<Numbers>) -> Option<Vec<usize>> {
+        self.not_empty(list, "joints = [2]")?;
+        let mut joints = Vec::new();
+        let mut sound = true;
+        for number in &list.value {
+            let Some(number) = number else {
+                sound = false;
+                continue;
+            };
+            let most = self.joint_count.unwrap_or(usize::MAX);
+            let joint = number.value as usize;
+            let fault = if number.value.fract() != 0.0 || joint == 0 || joint > most {
+                "is no joint of the arm"
+            } else if joints.contains(&(joint - 1)) {
+                "is there twice"
+            } else {
+                joints.push(joint - 1);
+                continue;
+            };
+            sound = false;
+            let help = match self.joint_count {
+                Some(count) => format!("joints count from 1, at the base, to {count}"),
+                None => "joints count from 1, at the base".to_owned(),
+            };
+            let message = format!("{} {fault}", number.name);
+            self.refuse(&number.span, message, "", help);
+        }
+        sound.then_some(joints)
+    }
+
+    fn cycle(&self, cycle: &Number, duration: Option<f64>) -> Option<f64> {
+        let value = self.bounded(cycle, &CYCLE)?;
+        let cycle = cycle.as_ref()?;
+        if duration.is_some_and(|duration| duration / value > MAX_CYCLES) {
+            let message = format!(
+                "{} cuts the motion into more than {MAX_CYCLES} cycles",
+                cycle.name
+            );
+            self.refuse(&cycle.span, message, "", "write a longer cycle");
+            return None;
+        }
+        Some(value)
+    }
+
+    fn search(&self, table: &SearchTable) -> Option<SearchGrid> {
+        let start = self.bounded(&table.start, &COEFFICIENT);
+        let step = self.bounded(&table.step, &STEP);
+        Some(SearchGrid {
+            start: start?,
+            step: step?,
+        })
+    }
+
+    fn campaign(&self, table: &CampaignTable) -> Option<CampaignSettings> {
+        let count = |number: &Option<Located<u64>>, default: u64, most: u64| {
+            let Some(number) = number else {
+                return Some(default);
+            };
+            if (1..=most).contains(&number.value) {
+                return Some(number.value);
+            }
+            let message = format!("{} is out of bounds", number.name);
+            self.refuse(
+                &number.span,
+                message,
+                format!("must be within 1 to {most}"),
+                "write a count",
+            );
+            None
+        };
+        let spread = |number: &Number, default: f64, bound: &Bound| match number {
+            Some(_) => self.bounded(number, bound),
+            None => Some(default),
+        };
+        let cases = count(&table.cases, 10_000, 100_000_000);
+        let failure_times = count(&table.failure_times, 20, 10_000);
+        let start_spread = spread(&table.start_spread, 0.5, &SPREAD);
+        let goal_spread = spread(&table.goal_spread, 0.5, &SPREAD);
+        let force_spread = spread(&table.force_spread, 20.0, &FORCE_SPREAD);
+        Some(CampaignSettings {
+            cases: cases?,
+            seed: table.seed.as_ref().map_or(1, |seed| seed.value),
+            failure_times: failure_times?,
+            start_spread: start_spread?,
+            goal_spread: goal_spread?,
+            force_spread: force_spread?,
+        })
+    }
+
+    fn bounded(&self, number: &Number, bound: &Bound) -> Option<f64> {
+        bound.admit(number.as_ref()?, self.sink)
+    }
+
+    fn for_each_joint<'l>(&self, list: &'l List) -> Option<&'l Numbers> {
+        self.one_each(list.as_ref()?)
+    }
+
+    fn one_each<'l>(&self, list: &'l Located<Numbers>) -> Option<&'l Numbers> {
+        self.has_length(list, self.joint_count?, "one for each joint")
+    }
+
+    fn counted<'l>(&self, list: &'l List, count: usize, what: &str) -> Option<&'l Numbers> {
+        self.has_length(list.as_ref()?, count, what)
+    }
+
+    fn has_length<'l>(
+        &self,
+        list: &'l Located<Numbers>,
+        count: usize,
+        what: &str,
+    ) -> Option<&'l Numbers> {
+        let here = list.value.len();
+        if here == count {
+            return Some(&list.value);
+        }
+        let message = format!("{} must have {count} numbers, not {here}", list.name);
+        self.refuse(
+            &list.span,
+            message,
+            format!("{here} here"),
+            format!("write {count} numbers: {what}"),
+        );
+        None
+    }
+
+    fn not_empty(&self, list: &Located<Numbers>, example: &str) -> Option<()> {
+        if !list.value.is_empty() {
+            return Some(());
+        }
+        let message = format!("{} is empty", list.name);
+        self.refuse(
+            &list.span,
+            message,
+            "nothing here",
+            format!("write `{example}`"),
+        );
+        None
+    }
+
+    fn refuse(
+        &self,
+        span: &core::ops::Range<usize>,
+        message: String,
+        label: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        let error = Diagnostic::error(span.clone(), message);
+        self.sink.push(error.label(label).help(help));
+    }
+}
