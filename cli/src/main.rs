@@ -4,8 +4,12 @@
 
 mod check;
 mod console;
+mod cost;
+mod differences;
+mod generate;
 mod joints;
 mod reproduce;
+mod verify;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -27,6 +31,9 @@ struct Cli {
 enum Command {
     Reproduce(reproduce::Arguments),
     Check(check::Arguments),
+    Generate(generate::Arguments),
+    Verify(verify::Arguments),
+    Cost(cost::Arguments),
 }
 
 /// What a command that ran to its end found.
@@ -43,6 +50,9 @@ impl Command {
         match self {
             Self::Reproduce(arguments) => reproduce::run(&arguments, out),
             Self::Check(arguments) => check::run(&arguments, out),
+            Self::Generate(arguments) => generate::run(&arguments, out),
+            Self::Verify(arguments) => verify::run(&arguments, out),
+            Self::Cost(arguments) => cost::run(&arguments, out),
         }
     }
 }

@@ -43,10 +43,13 @@ pub struct Method {
     pub program: Program,
 }
 
-/// The whole way from a model to Rust. `source` names the table in the generated header.
+/// The whole way from a model to Rust. `source` is the table's path.
+///
+/// Its last part stands in the header, and no more of it: the same table gives the same bytes, wherever it is read from.
 pub fn generate(model: &Model, source: &str) -> Generated {
     let methods = compile(model);
-    Generated::new(model, source, &methods)
+    let file_name = source.rsplit(std::path::is_separator).next();
+    Generated::new(model, file_name.unwrap_or(source), &methods)
 }
 
 /// Every method of [`ulna::Arm`] that needs arithmetic, as a program.

@@ -27,6 +27,8 @@ use sha2::{Digest, Sha256};
 use crate::diagnostics::{Diagnostics, Sink, TableErrors};
 #[cfg(feature = "table")]
 use crate::table::ArmTable;
+#[cfg(feature = "table")]
+use crate::toml_reader::read_file;
 
 /// How a joint moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,13 +140,22 @@ impl Model {
         Self::lint_text(text, source_name).map(|(model, _)| model)
     }
 
+    /// Reads the table at `path` in `folder`. Errors call it `path`, as the user wrote it, wherever `folder` is.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, at once.
+    pub fn load_in(folder: impl AsRef<Path>, path: impl AsRef<Path>) -> Result<Self, TableErrors> {
+        let text = read_file(folder.as_ref(), path.as_ref(), Self::MAX_BYTES)?;
+        Self::parse(&text, &path.as_ref().display().to_string())
+    }
+
     /// [`Model::load`], together with warnings of what is allowed but rarely meant.
     ///
     /// # Errors
     /// Everything that is wrong with the file, at once.
     pub fn lint(path: impl AsRef<Path>) -> Result<(Self, Diagnostics), TableErrors> {
         let path = path.as_ref();
-        let text = crate::toml_reader::read_file(path, Self::MAX_BYTES)?;
+        let text = read_file(Path::new(""), path, Self::MAX_BYTES)?;
         Self::lint_text(&text, &path.display().to_string())
     }
 

@@ -111,7 +111,8 @@ impl Scenario {
     /// Everything that is wrong with the scenario and with the table that it names, at once.
     pub fn load(path: impl AsRef<Path>, known: &[KnownArm]) -> Result<Self, ScenarioErrors> {
         let path = path.as_ref();
-        let text = read_file(path, Self::MAX_BYTES).map_err(|found| ScenarioErrors(vec![found]))?;
+        let text = read_file(Path::new(""), path, Self::MAX_BYTES)
+            .map_err(|found| ScenarioErrors(vec![found]))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         Self::parse(&text, &path.display().to_string(), folder, known)
     }

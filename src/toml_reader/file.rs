@@ -2,20 +2,21 @@
 
 use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::closest;
 use crate::diagnostics::{Diagnostic, Diagnostics, Sink};
 
-/// The text of the file at `path`, which may have `max_bytes`.
-pub(crate) fn read_file(path: &Path, max_bytes: u64) -> Result<String, Diagnostics> {
+/// The text of the file at `path` in `folder`, which may have `max_bytes`. Errors call it `path`.
+pub(crate) fn read_file(folder: &Path, path: &Path, max_bytes: u64) -> Result<String, Diagnostics> {
     let name = path.display().to_string();
+    let file = folder.join(path);
     let refuse = |message: String, help: Option<String>| {
         let error = Diagnostic::file_error(message);
         let error = help.into_iter().fold(error, Diagnostic::help);
         Diagnostics::of_file(&name, error)
     };
-    if path.is_dir() {
+    if file.is_dir() {
         let help = format!("name a file in it, for example {name}/my_arm.toml");
         return Err(refuse(
             "this is a directory, not a file".to_owned(),
@@ -23,16 +24,15 @@ pub(crate) fn read_file(path: &Path, max_bytes: u64) -> Result<String, Diagnosti
         ));
     }
     let mut bytes = Vec::new();
-    File::open(path)
+    File::open(&file)
         .and_then(|file| file.take(max_bytes + 1).read_to_end(&mut bytes))
         .map_err(|error| {
-            let help = similar_file(path)
-                .map(|path| format!("did you mean {}?", path.display()))
+            let help = similar_name(&file)
+                .map(|name| format!("did you mean {}?", path.with_file_name(name).display()))
                 .or_else(|| {
-                    let here = std::env::current_dir()
-                        .ok()
-                        .filter(|_| path.is_relative())?;
-                    Some(format!("the path starts in {}", here.display()))
+                    let absolute = std::path::absolute(&file).ok();
+                    let absolute = absolute.filter(|_| path.is_relative())?;
+                    Some(format!("no file can be read at {}", absolute.display()))
                 });
             refuse(format!("cannot read the file: {error}"), help)
         })?;
@@ -55,9 +55,9 @@ pub(crate) fn read_file(path: &Path, max_bytes: u64) -> Result<String, Diagnosti
     })
 }
 
-/// The file beside `path` whose name is closest to its.
-fn similar_file(path: &Path) -> Option<PathBuf> {
-    let folder = match path.parent()? {
+/// The name of the file beside `file` that is closest to its own.
+fn similar_name(file: &Path) -> Option<String> {
+    let folder = match file.parent()? {
         here if here.as_os_str().is_empty() => Path::new("."),
         folder => folder,
     };
@@ -67,6 +67,5 @@ fn similar_file(path: &Path) -> Option<PathBuf> {
         .collect();
     // A folder lists its files in no particular order.
     names.sort_unstable();
-    let meant = closest(path.file_name()?.to_str()?, &names)?;
-    Some(path.with_file_name(meant))
+    closest(file.file_name()?.to_str()?, &names).cloned()
 }

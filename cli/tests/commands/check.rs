@@ -63,13 +63,6 @@ fn a_wrong_command_line_exits_with_2() {
 }
 
 #[test]
-fn help_goes_to_stdout_with_an_example() {
-    let run = ulna(&["check", "--help"]).code(0).stderr("");
-    assert!(stdout(&run).contains("ulna check arms/ssrms.toml"));
-    ulna(&["--version"]).code(0).stderr("");
-}
-
-#[test]
 #[cfg(unix)]
 fn a_reader_that_hangs_up_is_no_error() {
     use std::process::{Command, Stdio};

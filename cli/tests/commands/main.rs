@@ -1,4 +1,8 @@
 //! The commands, run as a user runs them: exit code, stdout, stderr, and the files that are written or not.
 
 mod check;
+mod cost;
+mod generate;
+mod help;
 mod support;
+mod verify;

@@ -1,0 +1,76 @@
+//! `ulna generate`: a table in, Rust out.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+use clap::Args;
+use ulna::Model;
+
+use crate::Verdict;
+
+/// Emit the Rust code of an arm
+#[derive(Args)]
+#[command(after_help = "Examples:\n  ulna generate arms/planar_2r.toml\n  \
+                  ulna generate arms/planar_2r.toml --output examples/checked_in/src/planar_2r.rs --check")]
+pub(crate) struct Arguments {
+    /// The arm's table (TOML)
+    table: PathBuf,
+    /// The file to write, whole or not at all; without it the code goes to stdout
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write nothing; fail if the file is not what would be written
+    #[arg(long, requires = "output")]
+    check: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
+    let model = Model::load(&arguments.table)?;
+    let code = ulna_codegen::generate(&model, &arguments.table.display().to_string()).source();
+    match &arguments.output {
+        None => out.write_all(code.as_bytes())?,
+        Some(file) if arguments.check => check(file, &code, &arguments.table)?,
+        Some(file) => {
+            write_whole(file, &code).with_context(|| format!("cannot write {}", file.display()))?;
+        }
+    }
+    Ok(Verdict::Pass)
+}
+
+fn check(file: &Path, code: &str, table: &Path) -> anyhow::Result<()> {
+    let old = fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
+    if old == code.as_bytes() {
+        return Ok(());
+    }
+    let old = String::from_utf8_lossy(&old);
+    let same = old
+        .lines()
+        .zip(code.lines())
+        .take_while(|(old, new)| old == new);
+    bail!(
+        "{file} is out of date from line {line} on; `ulna generate {table} --output {file}` writes it anew",
+        file = file.display(),
+        line = same.count() + 1,
+        table = table.display(),
+    )
+}
+
+/// Writes `text` under another name first, so that `path` is never half of it.
+fn write_whole(path: &Path, text: &str) -> io::Result<()> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        // Like any new file, and not only for its owner; the umask applies.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(text.as_bytes())?;
+    file.persist(path)?;
+    Ok(())
+}

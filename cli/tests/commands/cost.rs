@@ -1,0 +1,80 @@
+//! `ulna cost`.
+
+use serde_json::Value;
+
+use crate::support::{folder_with_bad_table, stdout, ulna};
+
+/// The methods of `Arm` that compute something.
+const METHODS: [&str; 13] = [
+    "forward_kinematics",
+    "geometric_jacobian",
+    "jacobian_derivatives",
+    "mass_matrix",
+    "mass_matrix_derivatives",
+    "dynamic_manipulability",
+    "dynamic_manipulability_gradient",
+    "inverse_dynamics",
+    "bias_force",
+    "gravity_torque",
+    "forward_dynamics",
+    "mass_matrix_and_derivatives",
+    "jacobian_and_gradient",
+];
+
+#[test]
+fn json_has_every_method_and_every_operation() {
+    let run = ulna(&["cost", "arms/ssrms.toml", "--json"])
+        .code(0)
+        .stderr("");
+    let cost: Value = serde_json::from_str(&stdout(&run)).unwrap();
+    let keys = |value: &Value| {
+        value
+            .as_object()
+            .unwrap()
+            .keys()
+            .cloned()
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(keys(&cost), ["arm", "quantities"]);
+    assert_eq!(cost["arm"], "ssrms");
+    assert_eq!(keys(&cost["quantities"]), METHODS);
+    for method in METHODS {
+        let counts = &cost["quantities"][method];
+        let mut names = keys(counts);
+        names.sort();
+        assert_eq!(
+            names,
+            [
+                "add", "div", "mul", "neg", "sin_cos", "sqrt", "sub", "total"
+            ]
+        );
+        let count = |name: &str| counts[name].as_u64().unwrap();
+        let operations = ["add", "sub", "mul", "neg", "div", "sqrt"];
+        assert_eq!(
+            count("total"),
+            operations.into_iter().map(count).sum::<u64>()
+        );
+        assert!(count("sin_cos") <= 7);
+    }
+    assert!(cost["quantities"]["mass_matrix"]["total"].as_u64().unwrap() > 0);
+}
+
+#[test]
+fn the_table_has_lines_and_seconds_too() {
+    let out = stdout(&ulna(&["cost", "arms/planar_2r.toml"]).code(0).stderr(""));
+    let first = out.lines().next().unwrap();
+    assert!(
+        first.starts_with("planar_2r: ") && first.contains(" lines, generated in "),
+        "{out}"
+    );
+    assert!(METHODS.iter().all(|method| out.contains(method)), "{out}");
+}
+
+#[test]
+fn a_bad_table_is_refused() {
+    let folder = folder_with_bad_table();
+    let table = folder.path().join("bad.toml");
+    ulna(&["cost", table.to_str().unwrap(), "--json"])
+        .code(1)
+        .stdout("");
+}
