@@ -1,1 +1,38 @@
-//! TBD
+//! [`arm!`]: an arm's table as unrolled Rust, without a build script.
+
+use std::path::Path;
+
+use proc_macro::TokenStream;
+use quote::quote;
+use syn::{LitStr, parse_macro_input};
+
+/// Expands to the code of the arm whose table stands at the given path.
+///
+/// The path is relative to the folder of the crate's `Cargo.toml`. The crate is rebuilt when the table changes.
+///
+/// ```ignore
+/// ulna_macros::arm!("arms/ssrms.toml"); // pub struct Ssrms, which implements ulna::Arm<7>
+/// ```
+///
+/// Every error of the table is reported at the path, with its line in the table.
+#[proc_macro]
+pub fn arm(path: TokenStream) -> TokenStream {
+    let literal = parse_macro_input!(path as LitStr);
+    expand(&literal.value())
+        .unwrap_or_else(|message| syn::Error::new(literal.span(), message).into_compile_error())
+        .into()
+}
+
+fn expand(path: &str) -> Result<proc_macro2::TokenStream, String> {
+    let root = std::env::var("CARGO_MANIFEST_DIR")
+        .map_err(|error| format!("CARGO_MANIFEST_DIR: {error}; build with cargo"))?;
+    let model = ulna::Model::load_in(&root, path).map_err(|errors| format!("{errors:?}"))?;
+    let code = ulna_codegen::generate(&model, path);
+    let code = code.tokens();
+    let absolute = Path::new(&root).join(path).display().to_string();
+    // The constant makes the table one of the files that cargo watches.
+    Ok(quote! {
+        #code
+        const _: &[u8] = ::core::include_bytes!(#absolute);
+    })
+}
