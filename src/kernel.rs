@@ -4,15 +4,13 @@ use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SVector, Translation3};
 
 pub use crate::real::{prismatic_offset, revolute_angle};
 
-/// A pivot of HHᵀ, relative to the diagonal entry before elimination, below which it is rounding.
-const PIVOT_ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// The squared distance of a row of H from the span of those before, relative to its squared length,
+/// below which it is rounding: a distance of 1e-10.
+const ROUNDING: f64 = 1e-20;
 
-/// Whether the task counts as singular, from the pivots and the diagonal of HHᵀ, H = JM⁻¹.
-///
-/// A pivot is the squared distance of one row of H from the rows eliminated before, so that the rule reads:
-/// a row within about 1e-7 of its length of the others' span is not told from a dependent one.
+/// Whether the task counts as singular, H = JM⁻¹: `pivots` are the squared distances, `diagonal` the squared lengths.
 fn is_singular<const R: usize>(pivots: &[f64; R], diagonal: &[f64; R]) -> bool {
-    let regular = |(pivot, whole): (&f64, &f64)| *pivot > PIVOT_ROUNDING * whole;
+    let regular = |(pivot, whole): (&f64, &f64)| *pivot > ROUNDING * whole;
     !pivots.iter().zip(diagonal).all(regular)
 }
 

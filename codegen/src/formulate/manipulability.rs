@@ -3,10 +3,16 @@
 //! With H = JM⁻¹, G = HHᵀ and W = G⁻¹HM⁻¹, Eq. 23–27 come down to
 //! ∂w_D/∂q_i = w_D (⟨W, ∂J/∂q_i⟩ − ⟨HᵀW, ∂M/∂q_i⟩): one reverse sweep through J and M, seeded with W and HᵀW,
 //! gives every component at once.
+//!
+//! G itself is never formed: it would square H's condition number. The modified Gram–Schmidt process on H's rows
+//! (Golub and Van Loan, Matrix Computations, section 5.2.8) gives w_D as the product of what is left of the rows' lengths,
+//! and G⁻¹H as the rows' dual basis, for fewer operations besides.
 
 use super::factorization::factor;
 use crate::differentiate::reverse;
 use crate::graph::Expr;
+
+type Row<'g> = Vec<Expr<'g>>;
 
 /// w_D, its gradient, and what tells how near to singular the task is.
 pub struct Manipulability<'g> {
@@ -14,46 +20,31 @@ pub struct Manipulability<'g> {
     pub value: Expr<'g>,
     /// ∇w_D.
     pub gradient: Vec<Expr<'g>>,
-    /// The pivots of G = HHᵀ, each to be judged against the diagonal entry of the same index.
+    /// Squared distance of each row of H from the span of those before.
     pub pivots: Vec<Expr<'g>>,
-    /// The diagonal of G.
+    /// Squared length of each row of H.
     pub diagonal: Vec<Expr<'g>>,
 }
 
 /// w_D and ∇w_D of the task whose Jacobian is `jacobian` (by rows), with the mass matrix `mass`.
-pub fn manipulability<'g>(
-    jacobian: &[Vec<Expr<'g>>],
-    mass: &[Vec<Expr<'g>>],
-) -> Manipulability<'g> {
-    let joints = mass.len();
+pub fn manipulability<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Manipulability<'g> {
     let mass_factors = factor(mass);
-    let solve_rows = |rows: &[Vec<Expr<'g>>]| -> Vec<Vec<Expr<'g>>> {
-        rows.iter().map(|row| mass_factors.solve(row)).collect()
-    };
-    let h = solve_rows(jacobian);
-    let g: Vec<Vec<Expr<'g>>> = h
+    let h: Vec<Row<'g>> = jacobian.iter().map(|row| mass_factors.solve(row)).collect();
+    let basis = orthogonalise(&h);
+    let value = product(&basis.pivots).sqrt();
+    let w: Vec<Row<'g>> = basis
+        .duals()
         .iter()
-        .map(|a| h.iter().map(|b| dot(a, b)).collect())
+        .map(|row| mass_factors.solve(row))
         .collect();
-    let g_factors = factor(&g);
-    let determinant = product(&g_factors.pivots);
-    let value = determinant.sqrt();
-
-    let columns_of_h: Vec<Vec<Expr<'g>>> = (0..joints)
-        .map(|i| g_factors.solve(&h.iter().map(|row| row[i]).collect::<Vec<_>>()))
-        .collect();
-    let rows: Vec<Vec<Expr<'g>>> = (0..h.len())
-        .map(|r| columns_of_h.iter().map(|column| column[r]).collect())
-        .collect();
-    let w = solve_rows(&rows);
-    let graph = value.graph();
     let mut seeded = Vec::new();
     for (j_row, w_row) in jacobian.iter().zip(&w) {
         seeded.extend(j_row.iter().copied().zip(w_row.iter().copied()));
     }
+    // Σ over the rows of h_i w_j: the entry (i, j) of HᵀW.
     let outer = |i: usize, j: usize| {
-        let terms = h.iter().zip(&w).map(|(h_row, w_row)| h_row[i] * w_row[j]);
-        terms.fold(graph.constant(0.0), |sum, term| sum + term)
+        let terms = h.iter().zip(&w).map(|(h, w)| h[i] * w[j]);
+        sum(terms).unwrap_or(value)
     };
     for (i, row) in mass.iter().enumerate() {
         seeded.push((row[i], -outer(i, i)));
@@ -61,18 +52,89 @@ pub fn manipulability<'g>(
             seeded.push((*entry, -(outer(i, j) + outer(j, i))));
         }
     }
-    let logarithmic = reverse(graph, &seeded, joints);
+    let logarithmic = reverse(value.graph(), &seeded, mass.len());
     Manipulability {
         value,
         gradient: logarithmic.into_iter().map(|x| value * x).collect(),
-        pivots: g_factors.pivots,
-        diagonal: (0..g.len()).map(|r| g[r][r]).collect(),
+        diagonal: basis.squared_lengths(),
+        pivots: basis.pivots,
     }
 }
 
-fn dot<'g>(a: &[Expr<'g>], b: &[Expr<'g>]) -> Expr<'g> {
-    let terms = a.iter().zip(b).map(|(x, y)| *x * *y);
-    terms.reduce(|sum, term| sum + term).unwrap_or(a[0])
+/// Rows made orthogonal one after another: row s = reduced s + Σ_r coefficient(s, r) · reduced r, over r < s.
+struct Orthogonal<'g> {
+    reduced: Vec<Row<'g>>,
+    /// Squared lengths of the reduced rows.
+    pivots: Vec<Expr<'g>>,
+    /// For each row and each before it: the inner product with the reduced row, and the coefficient.
+    shares: Vec<Vec<(Expr<'g>, Expr<'g>)>>,
+}
+
+fn orthogonalise<'g>(rows: &[Row<'g>]) -> Orthogonal<'g> {
+    let mut reduced = rows.to_vec();
+    let mut pivots = Vec::new();
+    let mut shares = vec![Vec::new(); rows.len()];
+    for r in 0..rows.len() {
+        let row = reduced[r].clone();
+        let pivot = dot(&row, &row);
+        let inverse = pivot.of(1.0) / pivot;
+        pivots.push(pivot);
+        for s in r + 1..rows.len() {
+            let inner = dot(&reduced[s], &row);
+            let coefficient = inner * inverse;
+            subtract(&mut reduced[s], coefficient, &row);
+            shares[s].push((inner, coefficient));
+        }
+    }
+    Orthogonal {
+        reduced,
+        pivots,
+        shares,
+    }
+}
+
+impl<'g> Orthogonal<'g> {
+    /// G⁻¹H: the rows' dual basis.
+    fn duals(&self) -> Vec<Row<'g>> {
+        let scaled = |(row, pivot): (&Row<'g>, &Expr<'g>)| {
+            let inverse = pivot.of(1.0) / *pivot;
+            row.iter().map(|x| *x * inverse).collect()
+        };
+        let mut duals: Vec<Row<'g>> = self.reduced.iter().zip(&self.pivots).map(scaled).collect();
+        for s in (0..duals.len()).rev() {
+            let dual = duals[s].clone();
+            for (r, (_, coefficient)) in self.shares[s].iter().enumerate() {
+                subtract(&mut duals[r], *coefficient, &dual);
+            }
+        }
+        duals
+    }
+
+    /// The diagonal of G, from the parts of each row.
+    fn squared_lengths(&self) -> Vec<Expr<'g>> {
+        let rows = self.pivots.iter().zip(&self.shares);
+        rows.map(|(pivot, shares)| {
+            let parts = shares
+                .iter()
+                .map(|(inner, coefficient)| *inner * *coefficient);
+            parts.fold(*pivot, |sum, part| sum + part)
+        })
+        .collect()
+    }
+}
+
+fn subtract<'g>(row: &mut Row<'g>, coefficient: Expr<'g>, other: &Row<'g>) {
+    for (x, y) in row.iter_mut().zip(other) {
+        *x = *x - coefficient * *y;
+    }
+}
+
+fn sum<'g>(terms: impl Iterator<Item = Expr<'g>>) -> Option<Expr<'g>> {
+    terms.reduce(|sum, term| sum + term)
+}
+
+fn dot<'g>(a: &Row<'g>, b: &Row<'g>) -> Expr<'g> {
+    sum(a.iter().zip(b).map(|(x, y)| *x * *y)).unwrap_or(a[0])
 }
 
 fn product<'g>(factors: &[Expr<'g>]) -> Expr<'g> {
