@@ -6,7 +6,9 @@
 //!
 //! G itself is never formed: it would square H's condition number. The modified Gram–Schmidt process on H's rows
 //! (Golub and Van Loan, Matrix Computations, section 5.2.8) gives w_D as the product of what is left of the rows' lengths,
-//! and G⁻¹H as the rows' dual basis, for fewer operations besides.
+//! and G⁻¹H as the rows' dual basis, for fewer operations besides. Rows of v and of ω have no common unit, and together
+//! they leave H as badly conditioned as the units happen to make it: such a task goes through the process twice
+//! (Giraud, Langou and Rozložník 2005: twice is enough).
 
 use super::factorization::factor;
 use crate::differentiate::reverse;
@@ -26,11 +28,16 @@ pub struct Manipulability<'g> {
     pub diagonal: Vec<Expr<'g>>,
 }
 
-/// w_D and ∇w_D of the task whose Jacobian is `jacobian` (by rows), with the mass matrix `mass`.
-pub fn manipulability<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Manipulability<'g> {
+/// w_D and ∇w_D of the task whose Jacobian is `jacobian` (by rows), with the mass matrix `mass`;
+/// H's rows are made orthogonal in so many `passes`.
+pub fn manipulability<'g>(
+    jacobian: &[Row<'g>],
+    mass: &[Row<'g>],
+    passes: usize,
+) -> Manipulability<'g> {
     let mass_factors = factor(mass);
     let h: Vec<Row<'g>> = jacobian.iter().map(|row| mass_factors.solve(row)).collect();
-    let basis = orthogonalise(&h);
+    let basis = orthogonalise(&h, passes);
     let value = product(&basis.pivots).sqrt();
     let w: Vec<Row<'g>> = basis
         .duals()
@@ -70,27 +77,32 @@ struct Orthogonal<'g> {
     shares: Vec<Vec<(Expr<'g>, Expr<'g>)>>,
 }
 
-fn orthogonalise<'g>(rows: &[Row<'g>]) -> Orthogonal<'g> {
-    let mut reduced = rows.to_vec();
-    let mut pivots = Vec::new();
-    let mut shares = vec![Vec::new(); rows.len()];
-    for r in 0..rows.len() {
-        let row = reduced[r].clone();
-        let pivot = dot(&row, &row);
-        let inverse = pivot.of(1.0) / pivot;
-        pivots.push(pivot);
-        for s in r + 1..rows.len() {
-            let inner = dot(&reduced[s], &row);
-            let coefficient = inner * inverse;
-            subtract(&mut reduced[s], coefficient, &row);
-            shares[s].push((inner, coefficient));
+fn orthogonalise<'g>(rows: &[Row<'g>], passes: usize) -> Orthogonal<'g> {
+    let mut basis = Orthogonal {
+        reduced: Vec::new(),
+        pivots: Vec::new(),
+        shares: Vec::new(),
+    };
+    for row in rows {
+        let mut reduced = row.clone();
+        let mut shares = Vec::new();
+        for pass in 0..passes {
+            for (r, (other, pivot)) in basis.reduced.iter().zip(&basis.pivots).enumerate() {
+                let inner = dot(&reduced, other);
+                let coefficient = inner * (inner.of(1.0) / *pivot);
+                subtract(&mut reduced, coefficient, other);
+                if pass == 0 {
+                    shares.push((inner, coefficient));
+                } else {
+                    shares[r].1 = shares[r].1 + coefficient;
+                }
+            }
         }
+        basis.pivots.push(dot(&reduced, &reduced));
+        basis.reduced.push(reduced);
+        basis.shares.push(shares);
     }
-    Orthogonal {
-        reduced,
-        pivots,
-        shares,
-    }
+    basis
 }
 
 impl<'g> Orthogonal<'g> {

@@ -147,11 +147,14 @@ fn forward_dynamics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
 }
 
 /// w_D does not change when all of a triplet of J's rows is turned; a task of whole triplets may be taken in any axes.
-fn task_is_of_whole_triplets(task: TaskRows) -> bool {
-    TaskRow::ALL.chunks(3).all(|triplet| {
-        let rows = triplet.iter().filter(|row| task.contains(**row)).count();
-        rows == 0 || rows == 3
-    })
+fn is_of_whole_triplets(task: TaskRows) -> bool {
+    rows_of_each_kind(task).iter().all(|rows| rows % 3 == 0)
+}
+
+/// How many linear and how many angular rows.
+fn rows_of_each_kind(task: TaskRows) -> [usize; 2] {
+    let linear = task.iter().filter(|row| row.index() < 3).count();
+    [linear, task.len() - linear]
 }
 
 fn without_gradient(mut outputs: Outputs<'_>) -> Outputs<'_> {
@@ -160,7 +163,7 @@ fn without_gradient(mut outputs: Outputs<'_>) -> Outputs<'_> {
 }
 
 fn manipulability_and_gradient<'g>(chain: &Chain<'g>, frames: Frames) -> Outputs<'g> {
-    let columns = if task_is_of_whole_triplets(chain.task) {
+    let columns = if is_of_whole_triplets(chain.task) {
         jacobian_in_group(chain, frames.task)
     } else {
         jacobian_in_world(chain, frames.task)
@@ -172,7 +175,11 @@ fn manipulability_and_gradient<'g>(chain: &Chain<'g>, frames: Frames) -> Outputs
             .collect()
     };
     let rows: Vec<Vec<Expr<'g>>> = chain.task.iter().map(row).collect();
-    let found = manipulability(&rows, &mass_matrix(chain));
+    let passes = rows_of_each_kind(chain.task)
+        .iter()
+        .filter(|rows| **rows > 0)
+        .count();
+    let found = manipulability(&rows, &mass_matrix(chain), passes);
     let vector = |name, elements: Vec<Expr<'g>>| Output {
         name,
         shape: vec![elements.len()],
