@@ -9,11 +9,11 @@ pub mod compensation;
 pub mod diagnostics;
 pub mod failure;
 pub mod generic;
-pub mod kernel;
 pub mod model;
 pub mod null_space;
 pub mod proof;
 pub mod real;
+pub mod simd;
 #[cfg(feature = "table")]
 pub mod scenario;
 #[cfg(feature = "table")]
@@ -23,6 +23,7 @@ mod toml_reader;
 #[cfg(feature = "std")]
 pub mod tool_path;
 pub mod trajectory;
+pub mod unrolled;
 
 pub use arm::Arm;
 pub use compensation::{Compensation, Controller, Cycle, Law, Projector, Status};
@@ -37,3 +38,4 @@ pub use real::Real;
 #[cfg(feature = "table")]
 pub use scenario::Scenario;
 pub use trajectory::{JointLimits, JointState, Trajectory, Trapezoid};
+pub use unrolled::Unrolled;

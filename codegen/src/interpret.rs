@@ -1,7 +1,7 @@
 //! The generated programs, run as they are without a compiler: `ulna verify` proves a table's code this way.
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3};
-use ulna::{Arm, JointKind, Model, SerialChain, TaskRows, kernel};
+use ulna::{Arm, Model, SerialChain, TaskRows, unrolled};
 
 use crate::Method;
 use crate::graph::{AngleSum, Input};
@@ -65,12 +65,8 @@ impl<const N: usize> Interpreter<N> {
     }
 
     fn at(&self, q: &SVector<f64, N>) -> Arguments<N> {
-        let coordinate = |i: usize| match self.chain.joints[i].kind {
-            JointKind::Revolute => kernel::revolute_angle(q[i]),
-            JointKind::Prismatic => kernel::prismatic_offset(q[i]),
-        };
         Arguments {
-            q: SVector::from_fn(|i, _| coordinate(i)),
+            q: unrolled::coordinates(&self.chain, &q.data.0[0]).into(),
             qd: SVector::zeros(),
             qdd: SVector::zeros(),
             tau: SVector::zeros(),
@@ -84,18 +80,18 @@ fn matrices<const R: usize, const C: usize, const K: usize>(
     std::array::from_fn(|k| SMatrix::from_column_slice(&elements[k * R * C..(k + 1) * R * C]))
 }
 
-/// w_D and ∇w_D by the rule for singular tasks, from the outputs `value`, `gradient`, `pivots`, `diagonal`.
+/// Whether w_D counts as 0, from the output `margins`.
+fn is_singular(margins: &[f64]) -> bool {
+    unrolled::is_singular(&[0, 6].map(|start| std::array::from_fn(|i| margins[start + i])))
+}
+
+/// w_D and ∇w_D, from the outputs `value`, `gradient` and `margins`.
 fn settled<const N: usize>(outputs: &[Vec<f64>]) -> (f64, SVector<f64, N>) {
-    // The rule wants as many pivots as the task has rows; absent ones are filled up as regular.
-    let six =
-        |row: &[f64]| std::array::from_fn::<f64, 6, _>(|i| row.get(i).copied().unwrap_or(1.0));
-    let gradient = std::array::from_fn(|i| outputs[1][i]);
-    kernel::settled_gradient(
-        outputs[0][0],
-        gradient,
-        &six(&outputs[2]),
-        &six(&outputs[3]),
-    )
+    if is_singular(&outputs[2]) {
+        (0.0, SVector::zeros())
+    } else {
+        (outputs[0][0], SVector::from_column_slice(&outputs[1]))
+    }
 }
 
 impl<const N: usize> Arm<N> for Interpreter<N> {
@@ -132,9 +128,12 @@ impl<const N: usize> Arm<N> for Interpreter<N> {
     }
 
     fn dynamic_manipulability(&self, q: &SVector<f64, N>) -> f64 {
-        let mut outputs = self.run("dynamic_manipulability", &self.at(q));
-        outputs.insert(1, vec![0.0; N]);
-        settled::<N>(&outputs).0
+        let outputs = self.run("dynamic_manipulability", &self.at(q));
+        if is_singular(&outputs[1]) {
+            0.0
+        } else {
+            outputs[0][0]
+        }
     }
 
     fn dynamic_manipulability_gradient(&self, q: &SVector<f64, N>) -> (f64, SVector<f64, N>) {

@@ -6,7 +6,7 @@ use ulna::{Joint, JointKind, Link, Model, Placement};
 
 use super::expression::literal;
 
-/// `pub const CHAIN: SerialChain<N>`.
+/// `const CHAIN: SerialChain<N>` of `Unrolled`.
 pub(super) fn chain(model: &Model) -> TokenStream {
     let n = Literal::usize_unsuffixed(model.joints.len());
     let joints = model.joints.iter().map(joint);
@@ -17,8 +17,8 @@ pub(super) fn chain(model: &Model) -> TokenStream {
         quote!(::ulna::TaskRow::#row)
     });
     quote! {
-        /// The arm as data, for the generic path: modified Denavit–Hartenberg rows, SI units.
-        pub const CHAIN: ::ulna::SerialChain<#n> = ::ulna::SerialChain {
+        /// Modified Denavit–Hartenberg rows, SI units.
+        const CHAIN: ::ulna::SerialChain<#n> = ::ulna::SerialChain {
             joints: [#(#joints),*],
             base: #base,
             tool: #tool,

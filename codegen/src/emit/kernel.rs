@@ -17,7 +17,7 @@ pub(super) fn kernel_name(method: &str) -> Ident {
     format_ident!("{method}_kernel")
 }
 
-/// The associated function that runs a method's program on any `R: Real`.
+/// The function of `Unrolled` that runs a method's program on any `R: Real`.
 pub(super) fn kernel(method: &Method, joints: usize) -> TokenStream {
     let (name, program) = (kernel_name(method.name), &method.program);
     let writer = Writer::new(program);
@@ -46,8 +46,8 @@ pub(super) fn kernel(method: &Method, joints: usize) -> TokenStream {
     let body = statements(&writer.named());
     quote! {
         #(#doc)*
-        #[inline]
-        pub fn #name<R: ::ulna::Real>(#(#arguments),*) -> #result {
+        #[inline(always)]
+        fn #name<R: ::ulna::Real>(#(#arguments),*) -> #result {
             #angles
             #body
             #value
@@ -117,7 +117,7 @@ fn statements(named: &[(Ident, TokenStream)]) -> TokenStream {
                     .map(|(name, value)| quote!(let #name = #value;));
                 return quote!(#(#lets)*);
             }
-            [(only, _)] => quote!(let #only;),
+            [(only, value)] => return quote!(let #only = #value;),
             _ => quote!(let (#(#names),*);),
         };
         let assignments = block.iter().map(|(name, value)| quote!(#name = #value;));

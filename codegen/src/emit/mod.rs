@@ -1,13 +1,12 @@
 //! Programs as Rust: the only place that knows the language's syntax.
 
-mod arm;
 mod chain;
 mod expression;
 mod kernel;
 
 use std::fmt::Write as _;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use ulna::Model;
 
@@ -62,24 +61,26 @@ fn tokens(model: &Model, methods: &[Method]) -> TokenStream {
     let joints = model.joints.len();
     let summary = format!(" The arm `{}`: {joints} joints, unrolled.", model.name);
     let chain = chain::chain(model);
-    let coordinates = arm::coordinates(model);
+    let n = Literal::usize_unsuffixed(joints);
     let kernels = methods.iter().map(|method| kernel::kernel(method, joints));
-    let implementation = arm::implementation(&name, model, methods);
     let proof = format_ident!("{}_proof", model.name);
     quote! {
         #[doc = #summary]
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct #name;
 
-        #[rustfmt::skip]
         impl #name {
-            #chain
-            #coordinates
-            #(#kernels)*
+            /// The arm as data, for the generic path beside the generated one.
+            pub const CHAIN: ::ulna::SerialChain<#n> = <Self as ::ulna::Unrolled<#n>>::CHAIN;
         }
 
         #[rustfmt::skip]
-        #implementation
+        impl ::ulna::Unrolled<#n> for #name {
+            #chain
+            #(#kernels)*
+        }
+
+        ::ulna::implement_arm!(#name, #n);
 
         #[cfg(test)]
         #[rustfmt::skip]

@@ -108,7 +108,7 @@ impl<'g> Chain<'g> {
     }
 
     /// How many joints there are.
-    pub fn len(&self) -> usize {
+    pub fn joint_count(&self) -> usize {
         self.joints.len()
     }
 
@@ -133,7 +133,7 @@ impl<'g> Chain<'g> {
 
     /// One expression for each joint.
     pub fn inputs(&self, input: fn(usize) -> Input) -> Vec<Expr<'g>> {
-        (0..self.len())
+        (0..self.joint_count())
             .map(|i| self.graph.input(input(i)))
             .collect()
     }

@@ -27,9 +27,10 @@ pub fn factor<'g>(matrix: &[Vec<Expr<'g>>]) -> Factors<'g> {
         for i in 0..k {
             upper[i][k] = rest[i][k] * inverse;
         }
-        for i in 0..k {
-            for j in i..k {
-                rest[i][j] = rest[i][j] - upper[i][k] * rest[j][k];
+        let column: Vec<Expr<'g>> = rest[..k].iter().map(|row| row[k]).collect();
+        for (i, row) in rest[..k].iter_mut().enumerate() {
+            for (entry, other) in row[i..k].iter_mut().zip(&column[i..]) {
+                *entry = *entry - upper[i][k] * *other;
             }
         }
         pivots.push(pivot);

@@ -50,7 +50,7 @@ pub fn inverse_dynamics<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]
     let motions = outward(chain, qd, qdd);
     let zero = chain.zero();
     let (mut force, mut moment) = (zero, zero);
-    let mut torques = vec![chain.graph.constant(0.0); chain.len()];
+    let mut torques = vec![chain.graph.constant(0.0); chain.joint_count()];
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];

@@ -41,7 +41,7 @@ fn combine<'g>(axes: &Axes<'g>, v: Vec3<'g>) -> Vec3<'g> {
 /// From each joint's origin to the tool point, in the axes of the joint's group;
 /// and from the base's origin, in base axes.
 fn vectors_to_tool<'g>(chain: &Chain<'g>) -> (Vec<Vec3<'g>>, Vec3<'g>) {
-    let mut vectors = vec![chain.zero(); chain.len()];
+    let mut vectors = vec![chain.zero(); chain.joint_count()];
     let mut to_tool = Vec3::constant(chain.graph, chain.tool.translation);
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {

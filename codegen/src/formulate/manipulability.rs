@@ -25,7 +25,7 @@ pub struct Manipulability<'g> {
     /// Squared distance of each row of H from the span of those before.
     pub pivots: Vec<Expr<'g>>,
     /// Squared length of each row of H.
-    pub diagonal: Vec<Expr<'g>>,
+    pub lengths: Vec<Expr<'g>>,
 }
 
 /// w_D and ∇w_D of the task whose Jacobian is `jacobian` (by rows), with the mass matrix `mass`;
@@ -63,7 +63,7 @@ pub fn manipulability<'g>(
     Manipulability {
         value,
         gradient: logarithmic.into_iter().map(|x| value * x).collect(),
-        diagonal: basis.squared_lengths(),
+        lengths: basis.squared_lengths(),
         pivots: basis.pivots,
     }
 }

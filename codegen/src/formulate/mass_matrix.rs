@@ -19,7 +19,7 @@ struct Momentum<'g> {
 /// M by rows; full and symmetric.
 pub fn mass_matrix<'g>(chain: &Chain<'g>) -> Vec<Vec<Expr<'g>>> {
     let zero = chain.graph.constant(0.0);
-    let mut matrix = vec![vec![zero; chain.len()]; chain.len()];
+    let mut matrix = vec![vec![zero; chain.joint_count()]; chain.joint_count()];
     let mut columns: Vec<Momentum<'g>> = Vec::new();
     let mut beyond: Option<Body<'g>> = None;
     for group in chain.groups.iter().rev() {

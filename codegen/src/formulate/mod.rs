@@ -64,7 +64,7 @@ pub const QUANTITIES: [Quantity; 13] = [
 ];
 
 fn zeros<'g>(chain: &Chain<'g>) -> Vec<Expr<'g>> {
-    vec![chain.graph.constant(0.0); chain.len()]
+    vec![chain.graph.constant(0.0); chain.joint_count()]
 }
 
 fn forward_kinematics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
@@ -87,7 +87,7 @@ fn jacobian<'g>(chain: &Chain<'g>, frames: Frames) -> Output<Expr<'g>> {
     let columns = jacobian_in_world(chain, frames.world);
     Output {
         name: "jacobian",
-        shape: vec![chain.len(), 6],
+        shape: vec![chain.joint_count(), 6],
         elements: columns
             .iter()
             .flat_map(|twist| twist.components())
@@ -99,7 +99,7 @@ fn derivatives_of_jacobian<'g>(chain: &Chain<'g>, frames: Frames) -> Output<Expr
     let derivatives = jacobian_derivatives(chain, &jacobian_in_world(chain, frames.world));
     Output {
         name: "derivatives",
-        shape: vec![chain.len(), chain.len(), 6],
+        shape: vec![chain.joint_count(), chain.joint_count(), 6],
         elements: derivatives
             .iter()
             .flatten()
@@ -111,7 +111,7 @@ fn derivatives_of_jacobian<'g>(chain: &Chain<'g>, frames: Frames) -> Output<Expr
 fn mass<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
     Output {
         name: "mass",
-        shape: vec![chain.len(), chain.len()],
+        shape: vec![chain.joint_count(), chain.joint_count()],
         elements: mass_matrix(chain).concat(),
     }
 }
@@ -120,8 +120,8 @@ fn derivatives_of_mass<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
     let entries = mass_matrix(chain).concat();
     Output {
         name: "derivatives",
-        shape: vec![chain.len(); 3],
-        elements: (0..chain.len())
+        shape: vec![chain.joint_count(); 3],
+        elements: (0..chain.joint_count())
             .flat_map(|i| forward(chain.graph, &entries, i))
             .collect(),
     }
@@ -130,7 +130,7 @@ fn derivatives_of_mass<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
 fn torque<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Output<Expr<'g>> {
     Output {
         name: "torque",
-        shape: vec![chain.len()],
+        shape: vec![chain.joint_count()],
         elements: inverse_dynamics(chain, qd, qdd),
     }
 }
@@ -141,7 +141,7 @@ fn forward_dynamics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
     let driving: Vec<Expr<'g>> = driving.map(|(tau, bias)| tau - bias).collect();
     vec![Output {
         name: "acceleration",
-        shape: vec![chain.len()],
+        shape: vec![chain.joint_count()],
         elements: factorization::factor(&mass_matrix(chain)).solve(&driving),
     }]
 }
@@ -155,6 +155,23 @@ fn is_of_whole_triplets(task: TaskRows) -> bool {
 fn rows_of_each_kind(task: TaskRows) -> [usize; 2] {
     let linear = task.iter().filter(|row| row.index() < 3).count();
     [linear, task.len() - linear]
+}
+
+/// Pivots and lengths, each filled up with ones to six, so that all arms' kernels have one signature.
+fn margins<'g>(
+    chain: &Chain<'g>,
+    pivots: Vec<Expr<'g>>,
+    lengths: Vec<Expr<'g>>,
+) -> Output<Expr<'g>> {
+    let six = |mut row: Vec<Expr<'g>>| {
+        row.resize(6, chain.graph.constant(1.0));
+        row
+    };
+    Output {
+        name: "margins",
+        shape: vec![2, 6],
+        elements: [six(pivots), six(lengths)].concat(),
+    }
 }
 
 fn without_gradient(mut outputs: Outputs<'_>) -> Outputs<'_> {
@@ -193,7 +210,6 @@ fn manipulability_and_gradient<'g>(chain: &Chain<'g>, frames: Frames) -> Outputs
     vec![
         value,
         vector("gradient", found.gradient),
-        vector("pivots", found.pivots),
-        vector("diagonal", found.diagonal),
+        margins(chain, found.pivots, found.lengths),
     ]
 }

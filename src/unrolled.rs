@@ -1,0 +1,290 @@
+//! [`Unrolled`]: the arithmetic of an arm on any scalar, as generated code provides it; and what makes an [`Arm`](crate::Arm) of it.
+
+pub use crate::real::{prismatic_offset, revolute_angle};
+use crate::{JointKind, Real, SerialChain};
+
+/// The squared distance of a row of H from the span of those before, relative to its squared length,
+/// below which it is rounding: a distance of 1e-10.
+const ROUNDING: f64 = 1e-20;
+
+/// How far the task is from singular: the squared distance of each row of H = JM⁻¹ from the span of those before,
+/// and the squared length of each, both padded with ones.
+pub type Margins<R> = [[R; 6]; 2];
+
+/// The arithmetic of every method of [`Arm`](crate::Arm), on any [`Real`].
+///
+/// Each kernel is a straight line of operations without branches. A matrix is an array of its columns.
+/// Coordinates are passed through [`coordinates`] first, and [`is_singular`] judges the margins of w_D after.
+pub trait Unrolled<const N: usize> {
+    /// The arm as data.
+    const CHAIN: SerialChain<N>;
+
+    /// `world_from_tool`: rotation and translation.
+    fn forward_kinematics_kernel<R: Real>(q: &[R; N]) -> ([[R; 3]; 3], [R; 3]);
+
+    /// J.
+    fn geometric_jacobian_kernel<R: Real>(q: &[R; N]) -> [[R; 6]; N];
+
+    /// ∂J/∂q_i.
+    fn jacobian_derivatives_kernel<R: Real>(q: &[R; N]) -> [[[R; 6]; N]; N];
+
+    /// M.
+    fn mass_matrix_kernel<R: Real>(q: &[R; N]) -> [[R; N]; N];
+
+    /// ∂M/∂q_i.
+    fn mass_matrix_derivatives_kernel<R: Real>(q: &[R; N]) -> [[[R; N]; N]; N];
+
+    /// w_D, and the margins.
+    fn dynamic_manipulability_kernel<R: Real>(q: &[R; N]) -> (R, Margins<R>);
+
+    /// w_D, ∇w_D, and the margins.
+    fn dynamic_manipulability_gradient_kernel<R: Real>(q: &[R; N]) -> (R, [R; N], Margins<R>);
+
+    /// τ = M q̈ + c + g.
+    fn inverse_dynamics_kernel<R: Real>(q: &[R; N], qd: &[R; N], qdd: &[R; N]) -> [R; N];
+
+    /// c + g.
+    fn bias_force_kernel<R: Real>(q: &[R; N], qd: &[R; N]) -> [R; N];
+
+    /// g.
+    fn gravity_torque_kernel<R: Real>(q: &[R; N]) -> [R; N];
+
+    /// q̈ = M⁻¹(τ − c − g).
+    fn forward_dynamics_kernel<R: Real>(q: &[R; N], qd: &[R; N], tau: &[R; N]) -> [R; N];
+
+    /// M and ∂M/∂q_i.
+    fn mass_matrix_and_derivatives_kernel<R: Real>(q: &[R; N]) -> ([[R; N]; N], [[[R; N]; N]; N]);
+
+    /// J, w_D, ∇w_D, and the margins.
+    fn jacobian_and_gradient_kernel<R: Real>(q: &[R; N]) -> ([[R; 6]; N], R, [R; N], Margins<R>);
+}
+
+/// Joint coordinates as kernels read them: finite results for every finite coordinate.
+#[inline]
+pub fn coordinates<const N: usize>(chain: &SerialChain<N>, q: &[f64; N]) -> [f64; N] {
+    core::array::from_fn(|i| match chain.joints[i].kind {
+        JointKind::Revolute => revolute_angle(q[i]),
+        JointKind::Prismatic => prismatic_offset(q[i]),
+    })
+}
+
+/// Whether w_D counts as 0: Eq. 23 would divide by it.
+#[inline]
+pub fn is_singular(margins: &Margins<f64>) -> bool {
+    let [distances, lengths] = margins;
+    let regular = |(distance, length): (&f64, &f64)| *distance > ROUNDING * length;
+    !distances.iter().zip(lengths).all(regular)
+}
+
+/// Runs a kernel on the best scalar of the machine: `on_machine!(A, N, kernel(arguments) -> output)`.
+macro_rules! on_machine {
+    ($arm:ident, $n:ident, $kernel:ident($($argument:ident),+) -> $output:ty) => {{
+        struct Run<$arm, const $n: usize> {
+            $($argument: [f64; $n],)+
+            arm: PhantomData<$arm>,
+        }
+        impl<$arm: Unrolled<$n>, const $n: usize> Call for Run<$arm, $n> {
+            type Output = $output;
+            #[inline(always)]
+            fn run<R: Double>(self) -> $output {
+                $arm::$kernel::<R>($(cast_ref::<[f64; $n], [R; $n]>(&self.$argument)),+).plain()
+            }
+        }
+        simd::run(Run::<$arm, $n> { $($argument,)+ arm: PhantomData })
+    }};
+}
+
+/// The methods of [`Arm`](crate::Arm), for any unrolled arm; [`implement_arm!`](crate::implement_arm) forwards to them.
+pub mod methods {
+    use core::marker::PhantomData;
+
+    use bytemuck::cast_ref;
+    use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3};
+
+    use super::{Margins, Unrolled, coordinates, is_singular};
+    use crate::simd::{self, Call, Double, Plain as _};
+
+    /// Coordinates as an array, made safe.
+    #[inline]
+    fn read<A: Unrolled<N>, const N: usize>(q: &SVector<f64, N>) -> [f64; N] {
+        coordinates(&A::CHAIN, &q.data.0[0])
+    }
+
+    /// w_D and ∇w_D, or zeros where the task is singular.
+    #[inline]
+    fn settle<const N: usize>(
+        value: f64,
+        gradient: [f64; N],
+        margins: &Margins<f64>,
+    ) -> (f64, SVector<f64, N>) {
+        if is_singular(margins) {
+            (0.0, SVector::zeros())
+        } else {
+            (value, gradient.into())
+        }
+    }
+
+    /// [`Arm::forward_kinematics`](crate::Arm::forward_kinematics).
+    pub fn forward_kinematics<A: Unrolled<N>, const N: usize>(
+        q: &SVector<f64, N>,
+    ) -> IsometryMatrix3<f64> {
+        let q = read::<A, N>(q);
+        let (rotation, translation) =
+            on_machine!(A, N, forward_kinematics_kernel(q) -> ([[f64; 3]; 3], [f64; 3]));
+        IsometryMatrix3::from_parts(
+            Translation3::from(translation),
+            Rotation3::from_matrix_unchecked(Matrix3::from(rotation)),
+        )
+    }
+
+    /// [`Arm::geometric_jacobian`](crate::Arm::geometric_jacobian).
+    pub fn geometric_jacobian<A: Unrolled<N>, const N: usize>(
+        q: &SVector<f64, N>,
+    ) -> SMatrix<f64, 6, N> {
+        let q = read::<A, N>(q);
+        on_machine!(A, N, geometric_jacobian_kernel(q) -> [[f64; 6]; N]).into()
+    }
+
+    /// [`Arm::jacobian_derivatives`](crate::Arm::jacobian_derivatives).
+    pub fn jacobian_derivatives<A: Unrolled<N>, const N: usize>(
+        q: &SVector<f64, N>,
+    ) -> [SMatrix<f64, 6, N>; N] {
+        let q = read::<A, N>(q);
+        on_machine!(A, N, jacobian_derivatives_kernel(q) -> [[[f64; 6]; N]; N]).map(Into::into)
+    }
+
+    /// [`Arm::mass_matrix`](crate::Arm::mass_matrix).
+    pub fn mass_matrix<A: Unrolled<N>, const N: usize>(q: &SVector<f64, N>) -> SMatrix<f64, N, N> {
+        let q = read::<A, N>(q);
+        on_machine!(A, N, mass_matrix_kernel(q) -> [[f64; N]; N]).into()
+    }
+
+    /// [`Arm::mass_matrix_derivatives`](crate::Arm::mass_matrix_derivatives).
+    pub fn mass_matrix_derivatives<A: Unrolled<N>, const N: usize>(
+        q: &SVector<f64, N>,
+    ) -> [SMatrix<f64, N, N>; N] {
+        let q = read::<A, N>(q);
+        on_machine!(A, N, mass_matrix_derivatives_kernel(q) -> [[[f64; N]; N]; N]).map(Into::into)
+    }
+
+    /// [`Arm::dynamic_manipulability`](crate::Arm::dynamic_manipulability).
+    pub fn dynamic_manipulability<A: Unrolled<N>, const N: usize>(q: &SVector<f64, N>) -> f64 {
+        let q = read::<A, N>(q);
+        let (value, margins) =
+            on_machine!(A, N, dynamic_manipulability_kernel(q) -> (f64, Margins<f64>));
+        if is_singular(&margins) { 0.0 } else { value }
+    }
+
+    /// [`Arm::dynamic_manipulability_gradient`](crate::Arm::dynamic_manipulability_gradient).
+    pub fn dynamic_manipulability_gradient<A: Unrolled<N>, const N: usize>(
+        q: &SVector<f64, N>,
+    ) -> (f64, SVector<f64, N>) {
+        let q = read::<A, N>(q);
+        let (value, gradient, margins) = on_machine!(
+            A, N, dynamic_manipulability_gradient_kernel(q) -> (f64, [f64; N], Margins<f64>)
+        );
+        settle(value, gradient, &margins)
+    }
+
+    /// [`Arm::inverse_dynamics`](crate::Arm::inverse_dynamics).
+    pub fn inverse_dynamics<A: Unrolled<N>, const N: usize>(
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        let (q, qd, qdd) = (read::<A, N>(q), qd.data.0[0], qdd.data.0[0]);
+        on_machine!(A, N, inverse_dynamics_kernel(q, qd, qdd) -> [f64; N]).into()
+    }
+
+    /// [`Arm::bias_force`](crate::Arm::bias_force).
+    pub fn bias_force<A: Unrolled<N>, const N: usize>(
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        let (q, qd) = (read::<A, N>(q), qd.data.0[0]);
+        on_machine!(A, N, bias_force_kernel(q, qd) -> [f64; N]).into()
+    }
+
+    /// [`Arm::gravity_torque`](crate::Arm::gravity_torque).
+    pub fn gravity_torque<A: Unrolled<N>, const N: usize>(q: &SVector<f64, N>) -> SVector<f64, N> {
+        let q = read::<A, N>(q);
+        on_machine!(A, N, gravity_torque_kernel(q) -> [f64; N]).into()
+    }
+
+    /// [`Arm::forward_dynamics`](crate::Arm::forward_dynamics).
+    pub fn forward_dynamics<A: Unrolled<N>, const N: usize>(
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        tau: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        let (q, qd, tau) = (read::<A, N>(q), qd.data.0[0], tau.data.0[0]);
+        on_machine!(A, N, forward_dynamics_kernel(q, qd, tau) -> [f64; N]).into()
+    }
+
+    /// [`Arm::mass_matrix_and_derivatives`](crate::Arm::mass_matrix_and_derivatives).
+    pub fn mass_matrix_and_derivatives<A: Unrolled<N>, const N: usize>(
+        q: &SVector<f64, N>,
+    ) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) {
+        let q = read::<A, N>(q);
+        let (mass, derivatives) = on_machine!(
+            A, N, mass_matrix_and_derivatives_kernel(q) -> ([[f64; N]; N], [[[f64; N]; N]; N])
+        );
+        (mass.into(), derivatives.map(Into::into))
+    }
+
+    /// [`Arm::jacobian_and_gradient`](crate::Arm::jacobian_and_gradient).
+    pub fn jacobian_and_gradient<A: Unrolled<N>, const N: usize>(
+        q: &SVector<f64, N>,
+    ) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
+        let q = read::<A, N>(q);
+        let (jacobian, value, gradient, margins) = on_machine!(
+            A, N, jacobian_and_gradient_kernel(q) -> ([[f64; 6]; N], f64, [f64; N], Margins<f64>)
+        );
+        let (value, gradient) = settle(value, gradient, &margins);
+        (jacobian.into(), value, gradient)
+    }
+}
+
+/// Implements [`Arm`](crate::Arm) for a type that is [`Unrolled`], by [`methods`]: for the type itself, so that the kernels
+/// are compiled in the type's own crate, with that crate's optimisation. Generated code calls it.
+#[macro_export]
+macro_rules! implement_arm {
+    ($arm:ident, $n:literal) => {
+        const _: () = {
+            use $crate::nalgebra::{IsometryMatrix3, SMatrix, SVector};
+
+            $crate::implement_arm! { @methods $arm, $n,
+                forward_kinematics(q) -> IsometryMatrix3<f64>;
+                geometric_jacobian(q) -> SMatrix<f64, 6, $n>;
+                jacobian_derivatives(q) -> [SMatrix<f64, 6, $n>; $n];
+                mass_matrix(q) -> SMatrix<f64, $n, $n>;
+                mass_matrix_derivatives(q) -> [SMatrix<f64, $n, $n>; $n];
+                dynamic_manipulability(q) -> f64;
+                dynamic_manipulability_gradient(q) -> (f64, SVector<f64, $n>);
+                inverse_dynamics(q, qd, qdd) -> SVector<f64, $n>;
+                bias_force(q, qd) -> SVector<f64, $n>;
+                gravity_torque(q) -> SVector<f64, $n>;
+                forward_dynamics(q, qd, tau) -> SVector<f64, $n>;
+                mass_matrix_and_derivatives(q) -> (SMatrix<f64, $n, $n>, [SMatrix<f64, $n, $n>; $n]);
+                jacobian_and_gradient(q) -> (SMatrix<f64, 6, $n>, f64, SVector<f64, $n>);
+            }
+        };
+    };
+    (@methods $arm:ident, $n:literal, $($method:ident($($argument:ident),+) -> $output:ty;)+) => {
+        impl $crate::Arm<$n> for $arm {
+            fn task(&self) -> $crate::TaskRows {
+                <Self as $crate::Unrolled<$n>>::CHAIN.task
+            }
+
+            fn rated_torque(&self) -> SVector<f64, $n> {
+                $crate::Arm::rated_torque(&<Self as $crate::Unrolled<$n>>::CHAIN)
+            }
+
+            $(
+                fn $method(&self, $($argument: &SVector<f64, $n>),+) -> $output {
+                    $crate::unrolled::methods::$method::<Self, $n>($($argument),+)
+                }
+            )+
+        }
+    };
+}
