@@ -13,9 +13,9 @@ pub mod model;
 pub mod null_space;
 pub mod proof;
 pub mod real;
-pub mod simd;
 #[cfg(feature = "table")]
 pub mod scenario;
+pub mod simd;
 #[cfg(feature = "table")]
 mod table;
 #[cfg(feature = "table")]

@@ -37,6 +37,8 @@ use graph::Graph;
 pub struct Method {
     /// The method's name.
     pub name: &'static str,
+    /// What it returns, in a sentence.
+    pub doc: &'static str,
     /// Its arguments: some of `q`, `qd`, `qdd`, `tau`.
     pub arguments: &'static [&'static str],
     /// What it computes.
@@ -57,6 +59,7 @@ pub fn compile(model: &Model) -> Vec<Method> {
     let frames = cheapest_frames(model);
     let method = |quantity: &Quantity| Method {
         name: quantity.method,
+        doc: quantity.doc,
         arguments: quantity.arguments,
         program: compile_quantity(model, quantity, frames),
     };

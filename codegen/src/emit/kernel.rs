@@ -56,23 +56,12 @@ pub(super) fn kernel(method: &Method, joints: usize) -> TokenStream {
 }
 
 fn documentation(method: &Method) -> [String; 3] {
-    let (name, counts) = (method.name, Counts::of(&method.program));
-    let outputs: Vec<&str> = method
-        .program
-        .outputs
-        .iter()
-        .map(|output| output.name)
-        .collect();
+    let counts = Counts::of(&method.program);
+    let (operations, angles) = (counts.total, counts.sin_cos);
     [
-        format!(
-            " [`Arm::{name}`](::ulna::Arm::{name}) on any scalar: {}.",
-            outputs.join(", ")
-        ),
+        format!(" {}", method.doc),
         String::new(),
-        format!(
-            " {} operations, {} sines and cosines. A matrix is an array of its columns.",
-            counts.total, counts.sin_cos
-        ),
+        format!(" Operations: {operations}, and sine and cosine of {angles} angles."),
     ]
 }
 

@@ -39,6 +39,8 @@ pub struct Frames {
 pub struct Quantity {
     /// The method's name.
     pub method: &'static str,
+    /// What it returns, for the generated documentation.
+    pub doc: &'static str,
     /// Its arguments: some of `q`, `qd`, `qdd`, `tau`.
     pub arguments: &'static [&'static str],
     /// Its results.
@@ -48,19 +50,45 @@ pub struct Quantity {
 /// Every method that code is generated for.
 #[rustfmt::skip]
 pub const QUANTITIES: [Quantity; 13] = [
-    Quantity { method: "forward_kinematics",              arguments: &["q"],             formulate: |c, _| forward_kinematics(c) },
-    Quantity { method: "geometric_jacobian",              arguments: &["q"],             formulate: |c, f| vec![jacobian(c, f)] },
-    Quantity { method: "jacobian_derivatives",            arguments: &["q"],             formulate: |c, f| vec![derivatives_of_jacobian(c, f)] },
-    Quantity { method: "mass_matrix",                     arguments: &["q"],             formulate: |c, _| vec![mass(c)] },
-    Quantity { method: "mass_matrix_derivatives",         arguments: &["q"],             formulate: |c, _| vec![derivatives_of_mass(c)] },
-    Quantity { method: "dynamic_manipulability",          arguments: &["q"],             formulate: |c, f| without_gradient(manipulability_and_gradient(c, f)) },
-    Quantity { method: "dynamic_manipulability_gradient", arguments: &["q"],             formulate: manipulability_and_gradient },
-    Quantity { method: "inverse_dynamics",                arguments: &["q", "qd", "qdd"],formulate: |c, _| vec![torque(c, &c.inputs(Input::Qd), &c.inputs(Input::Qdd))] },
-    Quantity { method: "bias_force",                      arguments: &["q", "qd"],       formulate: |c, _| vec![torque(c, &c.inputs(Input::Qd), &zeros(c))] },
-    Quantity { method: "gravity_torque",                  arguments: &["q"],             formulate: |c, _| vec![torque(c, &zeros(c), &zeros(c))] },
-    Quantity { method: "forward_dynamics",                arguments: &["q", "qd", "tau"],formulate: |c, _| forward_dynamics(c) },
-    Quantity { method: "mass_matrix_and_derivatives",     arguments: &["q"],             formulate: |c, _| vec![mass(c), derivatives_of_mass(c)] },
-    Quantity { method: "jacobian_and_gradient",           arguments: &["q"],             formulate: |c, f| [vec![jacobian(c, f)], manipulability_and_gradient(c, f)].into_iter().flatten().collect() },
+    Quantity { method: "forward_kinematics", arguments: &["q"],
+               doc: "`world_from_tool`: the rotation's columns, and the translation in m.",
+               formulate: |c, _| forward_kinematics(c) },
+    Quantity { method: "geometric_jacobian", arguments: &["q"],
+               doc: "Geometric Jacobian, 6×N: columns `[v; ω]` in world axes, at the tool point.",
+               formulate: |c, f| vec![jacobian(c, f)] },
+    Quantity { method: "jacobian_derivatives", arguments: &["q"],
+               doc: "∂J/∂q_i, 6×N for each i: columns `[v; ω]` in world axes, at the tool point.",
+               formulate: |c, f| vec![derivatives_of_jacobian(c, f)] },
+    Quantity { method: "mass_matrix", arguments: &["q"],
+               doc: "Mass matrix, N×N, kg·m².",
+               formulate: |c, _| vec![mass(c)] },
+    Quantity { method: "mass_matrix_derivatives", arguments: &["q"],
+               doc: "∂M/∂q_i, N×N for each i, kg·m²/rad.",
+               formulate: |c, _| vec![derivatives_of_mass(c)] },
+    Quantity { method: "dynamic_manipulability", arguments: &["q"],
+               doc: "w_D over the task's rows of J (Eq. 15), and its margins.",
+               formulate: |c, f| without_gradient(manipulability_and_gradient(c, f)) },
+    Quantity { method: "dynamic_manipulability_gradient", arguments: &["q"],
+               doc: "w_D, ∇w_D (Eq. 22–27), and the margins of w_D.",
+               formulate: manipulability_and_gradient },
+    Quantity { method: "inverse_dynamics", arguments: &["q", "qd", "qdd"],
+               doc: "Joint torques, N·m, for the accelerations `qdd`.",
+               formulate: |c, _| vec![torque(c, &c.inputs(Input::Qd), &c.inputs(Input::Qdd))] },
+    Quantity { method: "bias_force", arguments: &["q", "qd"],
+               doc: "Joint torques, N·m, at zero acceleration.",
+               formulate: |c, _| vec![torque(c, &c.inputs(Input::Qd), &zeros(c))] },
+    Quantity { method: "gravity_torque", arguments: &["q"],
+               doc: "Joint torques, N·m, at rest.",
+               formulate: |c, _| vec![torque(c, &zeros(c), &zeros(c))] },
+    Quantity { method: "forward_dynamics", arguments: &["q", "qd", "tau"],
+               doc: "Joint accelerations, rad/s², under the torques `tau`.",
+               formulate: |c, _| forward_dynamics(c) },
+    Quantity { method: "mass_matrix_and_derivatives", arguments: &["q"],
+               doc: "Mass matrix, and its derivatives by each joint.",
+               formulate: |c, _| vec![mass(c), derivatives_of_mass(c)] },
+    Quantity { method: "jacobian_and_gradient", arguments: &["q"],
+               doc: "Geometric Jacobian, w_D, ∇w_D, and the margins of w_D.",
+               formulate: |c, f| [vec![jacobian(c, f)], manipulability_and_gradient(c, f)].into_iter().flatten().collect() },
 ];
 
 fn zeros<'g>(chain: &Chain<'g>) -> Vec<Expr<'g>> {
