@@ -3,12 +3,12 @@
 pub use crate::real::{prismatic_offset, revolute_angle};
 use crate::{JointKind, Real, SerialChain};
 
-/// The squared distance of a row of H from the span of those before, relative to its squared length,
-/// below which it is rounding: a distance of 1e-10.
+/// The squared distance of a row of H from the span of those before, relative to the longest row's squared length,
+/// below which it is rounding: a distance of 1e-10. (Not relative to its own: a row that ought to be 0 is all rounding.)
 const ROUNDING: f64 = 1e-20;
 
 /// How far the task is from singular: the squared distance of each row of H = JM⁻¹ from the span of those before,
-/// and the squared length of each, both padded with ones.
+/// and the squared length of each, both filled up to six by repeating the first.
 pub type Margins<R> = [[R; 6]; 2];
 
 /// The arithmetic of every method of [`Arm`](crate::Arm), on any [`Real`].
@@ -72,8 +72,10 @@ pub fn coordinates<const N: usize>(chain: &SerialChain<N>, q: &[f64; N]) -> [f64
 #[inline]
 pub fn is_singular(margins: &Margins<f64>) -> bool {
     let [distances, lengths] = margins;
-    let regular = |(distance, length): (&f64, &f64)| *distance > ROUNDING * length;
-    !distances.iter().zip(lengths).all(regular)
+    let longest = lengths.iter().fold(0.0_f64, |max, length| max.max(*length));
+    !distances
+        .iter()
+        .all(|distance| *distance > ROUNDING * longest)
 }
 
 /// Runs a kernel on the best scalar of the machine: `on_machine!(A, N, kernel(arguments) -> output)`.

@@ -185,15 +185,10 @@ fn rows_of_each_kind(task: TaskRows) -> [usize; 2] {
     [linear, task.len() - linear]
 }
 
-/// Pivots and lengths, each filled up with ones to six, so that all arms' kernels have one signature.
-fn margins<'g>(
-    chain: &Chain<'g>,
-    pivots: Vec<Expr<'g>>,
-    lengths: Vec<Expr<'g>>,
-) -> Output<Expr<'g>> {
-    let six = |mut row: Vec<Expr<'g>>| {
-        row.resize(6, chain.graph.constant(1.0));
-        row
+/// Pivots and lengths, each filled up to six by repeating the first, so that all arms' kernels have one signature.
+fn margins<'g>(pivots: &[Expr<'g>], lengths: &[Expr<'g>]) -> Output<Expr<'g>> {
+    let six = |row: &[Expr<'g>]| -> Vec<Expr<'g>> {
+        (0..6).map(|i| *row.get(i).unwrap_or(&row[0])).collect()
     };
     Output {
         name: "margins",
@@ -238,6 +233,6 @@ fn manipulability_and_gradient<'g>(chain: &Chain<'g>, frames: Frames) -> Outputs
     vec![
         value,
         vector("gradient", found.gradient),
-        margins(chain, found.pivots, found.lengths),
+        margins(&found.pivots, &found.lengths),
     ]
 }
