@@ -8,8 +8,8 @@ use crate::{TaskRow, TaskRows};
 /// ∇w_D (Eq. 22) from w_D, J, M and their derivatives by each joint; the zero vector where `w` is 0.
 ///
 /// `jacobian` and its derivatives have all six rows; those of `task` are used.
-/// Eq. 25 expands `∂ det(H Hᵀ)/∂q_i`, so that near a singular pose the relative error grows as
-/// the square of H's condition number; the adjoint form of the generated code has not that loss.
+/// For reading and comparing, not for use: `H Hᵀ` squares H's condition number and the determinants' sum
+/// cancels besides, so that near a singular pose few digits are left.
 pub fn manipulability_gradient<const N: usize>(
     task: TaskRows,
     w: f64,

@@ -1,0 +1,75 @@
+//! One suite, every backend, every arm of `arms/`.
+
+mod paper;
+mod singular;
+mod suite;
+
+use ulna::{Model, SerialChain};
+
+macro_rules! backends {
+    ($(($Type:ident, $name:ident, $n:literal))*) => {
+        /// The generic path, from the table.
+        mod generic {
+            $(mod $name {
+                crate::suite::conformance!(
+                    crate::chain::<$n>(stringify!($name)),
+                    crate::chain::<$n>(stringify!($name))
+                );
+            })*
+        }
+
+        /// Generated code, compiled.
+        mod generated {
+            $(mod $name {
+                crate::suite::conformance!(
+                    ulna_generated::$Type,
+                    crate::chain::<$n>(stringify!($name))
+                );
+
+                #[test]
+                fn carries_the_chain_of_its_table() {
+                    let chain = crate::chain::<$n>(stringify!($name));
+                    assert_eq!(ulna_generated::$Type::CHAIN, chain);
+                }
+            })*
+        }
+
+        /// The generator's programs, interpreted.
+        mod interpreted {
+            $(mod $name {
+                use std::sync::OnceLock;
+
+                use ulna_codegen::Interpreter;
+
+                fn arm() -> &'static Interpreter<$n> {
+                    static ARM: OnceLock<Interpreter<$n>> = OnceLock::new();
+                    ARM.get_or_init(|| {
+                        Interpreter::new(&crate::model(stringify!($name)))
+                            .unwrap_or_else(|error| panic!("{error}"))
+                    })
+                }
+
+                crate::suite::conformance!(*arm(), crate::chain::<$n>(stringify!($name)));
+            })*
+        }
+    };
+}
+ulna_generated::for_each_arm!(backends);
+
+fn model(name: &str) -> Model {
+    let path = format!("{}/arms/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    Model::load(path).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+fn chain<const N: usize>(name: &str) -> SerialChain<N> {
+    SerialChain::new(&model(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn another_number_of_joints_is_refused() {
+    let error = SerialChain::<6>::new(&model("ssrms")).expect_err("seven joints are not six");
+    assert_eq!(
+        error.to_string(),
+        "arm `ssrms` has 7 joints, not 6: write SerialChain::<7>"
+    );
+}
