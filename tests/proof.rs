@@ -3,6 +3,7 @@
 use ulna::nalgebra::{IsometryMatrix3, SMatrix, SVector, Translation3};
 use ulna::proof::{compare, states};
 use ulna::{Angle, Arm, Joint, JointKind, Link, Placement, SerialChain, TaskRow, TaskRows};
+use ulna_generated::Ssrms;
 
 const fn joint(kind: JointKind, a: f64) -> Joint {
     Joint {
@@ -159,6 +160,17 @@ mod generated_agrees_with_generic {
     use super::{compare, states};
 
     ulna_generated::for_each_arm!(generated);
+}
+
+/// No method of any backend allocates, and neither does the comparison.
+#[test]
+fn nothing_is_allocated() {
+    let pairs = || states(&Ssrms::CHAIN).take(2);
+    let allocated = allocation_counter::measure(|| {
+        let report = compare(&Ssrms, &Ssrms::CHAIN, pairs());
+        assert_eq!(report.states, 2);
+    });
+    assert_eq!(allocated.count_total, 0);
 }
 
 #[test]

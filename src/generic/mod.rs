@@ -21,7 +21,11 @@ pub use newton_euler::JointLoad;
 
 /// A serial chain of `N` joints, evaluated by textbook formulas.
 ///
-/// All of it is plain data, so that generated code can carry its own chain as a constant.
+/// All of it is plain data, so that generated code can carry its own chain as a constant. No method allocates.
+///
+/// For finite q no method returns NaN: angles of any size enter by their sines and cosines only, offsets are held within
+/// ±[`PRISMATIC_LIMIT`](crate::real::PRISMATIC_LIMIT). w_D and its gradient are exactly 0 where the task's rows of J,
+/// made dimensionless by the chain's length, are linearly dependent to within `16 N` units of rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SerialChain<const N: usize> {
     /// The joints, base first.

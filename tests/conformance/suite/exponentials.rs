@@ -222,13 +222,16 @@ impl Body {
     }
 }
 
+/// The derivatives by each q_i.
+pub(super) fn slope<const N: usize>(number: &DualSVec64<N>) -> SVector<f64, N> {
+    number.eps.unwrap_generic(Const::<N>, Const::<1>)
+}
+
 /// The derivatives of every entry, one matrix for each q_i.
 pub(super) fn slopes<const N: usize, const R: usize, const C: usize>(
     matrix: &SMatrix<DualSVec64<N>, R, C>,
 ) -> [SMatrix<f64, R, C>; N] {
-    core::array::from_fn(|i| {
-        matrix.map(|entry| entry.eps.unwrap_generic(Const::<N>, Const::<1>)[i])
-    })
+    core::array::from_fn(|i| matrix.map(|entry| slope(&entry)[i]))
 }
 
 fn isometry(placement: &Placement) -> Isometry3<f64> {
