@@ -4,6 +4,7 @@
 pub use nalgebra;
 
 pub mod arm;
+pub mod batch;
 pub mod compensation;
 #[cfg(feature = "table")]
 pub mod diagnostics;
@@ -23,9 +24,11 @@ mod toml_reader;
 #[cfg(feature = "std")]
 pub mod tool_path;
 pub mod trajectory;
+pub mod trigonometry;
 pub mod unrolled;
 
 pub use arm::Arm;
+pub use batch::ArmBatch;
 pub use compensation::{Compensation, Controller, Cycle, Law, Projector, Status};
 #[cfg(feature = "table")]
 pub use diagnostics::TableErrors;

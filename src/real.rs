@@ -21,11 +21,13 @@ pub trait Real:
     fn mul_add(self, factor: Self, summand: Self) -> Self;
 
     /// `self * factor - subtrahend`, fused like [`Real::mul_add`].
+    #[inline(always)]
     fn mul_sub(self, factor: Self, subtrahend: Self) -> Self {
         self.mul_add(factor, -subtrahend)
     }
 
     /// `minuend - self * factor`, fused like [`Real::mul_add`].
+    #[inline(always)]
     fn neg_mul_add(self, factor: Self, minuend: Self) -> Self {
         (-self).mul_add(factor, minuend)
     }
@@ -36,7 +38,8 @@ pub trait Real:
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
 
-    /// Sines and cosines of several angles at once.
+    /// Sines and cosines of several angles at once, each within ±2²⁶ rad.
+    #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
         let both = angles.map(Self::sin_cos);
         (both.map(|(sin, _)| sin), both.map(|(_, cos)| cos))
@@ -44,7 +47,7 @@ pub trait Real:
 }
 
 macro_rules! scalar {
-    ($scalar:ident, $sqrt:path, $sincos:path) => {
+    ($scalar:ident, $sqrt:path, $sincos:path, { $($own:tt)* }) => {
         impl Real for $scalar {
             #[inline(always)]
             fn of(value: f64) -> Self {
@@ -80,12 +83,21 @@ macro_rules! scalar {
                 #[cfg(not(feature = "std"))]
                 return $sincos(self);
             }
+
+            $($own)*
         }
     };
 }
 
-scalar!(f64, libm::sqrt, libm::sincos);
-scalar!(f32, libm::sqrtf, libm::sincosf);
+scalar!(f64, libm::sqrt, libm::sincos, {
+    /// By [`trigonometry`](crate::trigonometry), as lanes do it.
+    #[inline(always)]
+    fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
+        let both = angles.map(crate::trigonometry::sin_cos);
+        (both.map(|(sin, _)| sin), both.map(|(_, cos)| cos))
+    }
+});
+scalar!(f32, libm::sqrtf, libm::sincosf, {});
 
 /// The farthest that a prismatic joint's coordinate is read as, m.
 ///

@@ -62,10 +62,16 @@ pub trait Unrolled<const N: usize> {
 /// Joint coordinates as kernels read them: finite results for every finite coordinate.
 #[inline]
 pub fn coordinates<const N: usize>(chain: &SerialChain<N>, q: &[f64; N]) -> [f64; N] {
-    core::array::from_fn(|i| match chain.joints[i].kind {
-        JointKind::Revolute => revolute_angle(q[i]),
-        JointKind::Prismatic => prismatic_offset(q[i]),
-    })
+    core::array::from_fn(|i| coordinate(chain.joints[i].kind, q[i]))
+}
+
+/// A joint coordinate as kernels read it.
+#[inline]
+pub fn coordinate(kind: JointKind, q: f64) -> f64 {
+    match kind {
+        JointKind::Revolute => revolute_angle(q),
+        JointKind::Prismatic => prismatic_offset(q),
+    }
 }
 
 /// Whether w_D counts as 0: Eq. 23 would divide by it.

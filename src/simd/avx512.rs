@@ -1,0 +1,104 @@
+//! Eight doubles in AVX-512 registers, multiply-adds fused.
+
+use core::arch::x86_64::*;
+use core::ops::Neg;
+
+use super::{Lanes, operators};
+use crate::Real;
+use crate::trigonometry::{Quarters, sin_cos};
+
+/// The lanes. Never made outside functions compiled for the instructions.
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub(super) struct Avx512(__m512d);
+
+// SAFETY, for every intrinsic of this file: its instructions are there, since only `super::run_batch` makes these lanes,
+// after it has asked the processor.
+
+operators!(Avx512:
+    Add add |a, b| unsafe { _mm512_add_pd(a, b) },
+    Sub sub |a, b| unsafe { _mm512_sub_pd(a, b) },
+    Mul mul |a, b| unsafe { _mm512_mul_pd(a, b) },
+    Div div |a, b| unsafe { _mm512_div_pd(a, b) });
+
+impl Neg for Avx512 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        unsafe { Self(_mm512_xor_pd(self.0, _mm512_set1_pd(-0.0))) }
+    }
+}
+
+impl Real for Avx512 {
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        unsafe { Self(_mm512_set1_pd(value)) }
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        unsafe { Self(_mm512_fmadd_pd(self.0, factor.0, summand.0)) }
+    }
+
+    #[inline(always)]
+    fn mul_sub(self, factor: Self, subtrahend: Self) -> Self {
+        unsafe { Self(_mm512_fmsub_pd(self.0, factor.0, subtrahend.0)) }
+    }
+
+    #[inline(always)]
+    fn neg_mul_add(self, factor: Self, minuend: Self) -> Self {
+        unsafe { Self(_mm512_fnmadd_pd(self.0, factor.0, minuend.0)) }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        unsafe { Self(_mm512_sqrt_pd(self.0)) }
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        sin_cos(self)
+    }
+}
+
+impl Quarters for Avx512 {
+    #[inline(always)]
+    fn turn(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
+        unsafe {
+            let count = _mm512_castpd_si512(quarters.0);
+            let odd = _mm512_test_epi64_mask(count, _mm512_set1_epi64(1));
+            let (a, b) = (
+                _mm512_mask_blend_pd(odd, sin.0, cos.0),
+                _mm512_mask_blend_pd(odd, cos.0, sin.0),
+            );
+            let sign = _mm512_castpd_si512(_mm512_set1_pd(-0.0));
+            let next = _mm512_add_epi64(count, _mm512_set1_epi64(1));
+            let flip_sin = _mm512_and_si512(_mm512_slli_epi64::<62>(count), sign);
+            let flip_cos = _mm512_and_si512(_mm512_slli_epi64::<62>(next), sign);
+            (
+                Self(_mm512_xor_pd(a, _mm512_castsi512_pd(flip_sin))),
+                Self(_mm512_xor_pd(b, _mm512_castsi512_pd(flip_cos))),
+            )
+        }
+    }
+}
+
+impl Lanes for Avx512 {
+    const WIDTH: usize = 8;
+
+    #[inline(always)]
+    fn gather(number: impl Fn(usize) -> f64) -> Self {
+        let numbers: [f64; 8] = core::array::from_fn(number);
+        unsafe { Self(_mm512_loadu_pd(numbers.as_ptr())) }
+    }
+
+    #[inline(always)]
+    fn scatter(self, mut take: impl FnMut(usize, f64)) {
+        let mut numbers = [0.0; 8];
+        unsafe { _mm512_storeu_pd(numbers.as_mut_ptr(), self.0) };
+        for (lane, number) in numbers.into_iter().enumerate() {
+            take(lane, number);
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! A double whose multiply-adds are fused: quick only in code compiled for a processor that has the instruction.
+
+use core::ops::Neg;
+
+use bytemuck::{Pod, Zeroable, cast};
+
+use super::{Double, operators};
+use crate::Real;
+use crate::trigonometry::{Quarters, sin_cos};
+
+/// The double.
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub(super) struct Fused(f64);
+
+// SAFETY: a transparent f64.
+unsafe impl Zeroable for Fused {}
+// SAFETY: a transparent f64.
+unsafe impl Pod for Fused {}
+
+impl Double for Fused {}
+
+operators!(Fused:
+    Add add |a: f64, b| a + b,
+    Sub sub |a: f64, b| a - b,
+    Mul mul |a: f64, b| a * b,
+    Div div |a: f64, b| a / b);
+
+impl Neg for Fused {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl Real for Fused {
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        Self(value)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        Self(self.0.mul_add(factor.0, summand.0))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        sin_cos(self)
+    }
+}
+
+impl Quarters for Fused {
+    #[inline(always)]
+    fn turn(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
+        let (sin, cos) = f64::turn(cast(quarters), cast(sin), cast(cos));
+        (Self(sin), Self(cos))
+    }
+}

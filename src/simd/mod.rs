@@ -1,0 +1,119 @@
+//! Instructions that the machine has and the compiler was not told of: fused multiply-adds for programs built without flags.
+//!
+//! The only module with `unsafe` in it. What makes it sound: a function compiled for an instruction set is called only
+//! after the processor has been asked for it.
+#![allow(unsafe_code)]
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+mod avx2;
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+mod avx512;
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma")))]
+mod fused;
+mod plain;
+mod portable;
+
+use bytemuck::Pod;
+
+use crate::Real;
+
+pub use plain::Plain;
+
+/// A [`Real`] of one double in memory.
+pub trait Double: Real + Pod {}
+
+impl Double for f64 {}
+
+/// A computation on any scalar of one double.
+pub trait Call {
+    /// Its result.
+    type Output;
+
+    /// Computes it on scalars `R`. To be inlined always: it is compiled for the instructions of its caller.
+    fn run<R: Double>(self) -> Self::Output;
+}
+
+/// Several doubles at once: a [`Real`] that a batch of configurations runs on.
+pub trait Lanes: Real {
+    /// How many.
+    const WIDTH: usize;
+
+    /// The lanes' numbers, each from its index.
+    fn gather(number: impl Fn(usize) -> f64) -> Self;
+
+    /// Hands out each lane's number with its index.
+    fn scatter(self, take: impl FnMut(usize, f64));
+}
+
+/// A computation on lanes.
+pub trait BatchCall {
+    /// Computes it on lanes `R`. To be inlined always: it is compiled for the instructions of its caller.
+    fn run<R: Lanes>(self);
+}
+
+/// Runs `call` on scalars that fuse multiply-adds if the machine does.
+#[inline]
+pub fn run<C: Call>(call: C) -> C::Output {
+    #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma")))]
+    if has_avx2() {
+        // SAFETY: the processor has both.
+        return unsafe { run_fused(call) };
+    }
+    call.run::<f64>()
+}
+
+/// Runs `call` on the widest lanes of the machine.
+pub fn run_batch<C: BatchCall>(call: C) {
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512dq") {
+        // SAFETY: the processor has both.
+        return unsafe { run_avx512(call) };
+    } else if has_avx2() {
+        // SAFETY: the processor has both.
+        return unsafe { run_avx2(call) };
+    }
+    call.run::<wide::f64x4>();
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[inline]
+fn has_avx2() -> bool {
+    std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma")))]
+#[target_feature(enable = "avx2,fma")]
+fn run_fused<C: Call>(call: C) -> C::Output {
+    call.run::<fused::Fused>()
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[target_feature(enable = "avx2,fma")]
+fn run_avx2<C: BatchCall>(call: C) {
+    call.run::<avx2::Avx2>();
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[target_feature(enable = "avx512f,avx512dq")]
+fn run_avx512<C: BatchCall>(call: C) {
+    call.run::<avx512::Avx512>();
+}
+
+/// Operators of a newtype, each by a function of its field.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+macro_rules! operators {
+    ($type:ident: $($trait:ident $method:ident $function:expr),+) => {
+        $(
+            impl core::ops::$trait for $type {
+                type Output = Self;
+
+                #[inline(always)]
+                fn $method(self, other: Self) -> Self {
+                    Self($function(self.0, other.0))
+                }
+            }
+        )+
+    };
+}
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+use operators;
