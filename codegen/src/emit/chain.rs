@@ -6,7 +6,7 @@ use ulna::{Joint, JointKind, Link, Model, Placement};
 
 use super::expression::literal;
 
-/// `const CHAIN: SerialChain<N>` of `Unrolled`.
+/// `pub const CHAIN: SerialChain<N>`.
 pub(super) fn chain(model: &Model) -> TokenStream {
     let n = Literal::usize_unsuffixed(model.joints.len());
     let joints = model.joints.iter().map(joint);
@@ -17,8 +17,8 @@ pub(super) fn chain(model: &Model) -> TokenStream {
         quote!(::ulna::TaskRow::#row)
     });
     quote! {
-        /// Modified Denavit–Hartenberg rows, SI units.
-        const CHAIN: ::ulna::SerialChain<#n> = ::ulna::SerialChain {
+        /// The arm as data, for the generic path beside the generated one: modified Denavit–Hartenberg rows, SI units.
+        pub const CHAIN: ::ulna::SerialChain<#n> = ::ulna::SerialChain {
             joints: [#(#joints),*],
             base: #base,
             tool: #tool,

@@ -69,14 +69,14 @@ fn tokens(model: &Model, methods: &[Method]) -> TokenStream {
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct #name;
 
+        #[rustfmt::skip]
         impl #name {
-            /// The arm as data, for the generic path beside the generated one.
-            pub const CHAIN: ::ulna::SerialChain<#n> = <Self as ::ulna::Unrolled<#n>>::CHAIN;
+            #chain
         }
 
         #[rustfmt::skip]
         impl ::ulna::Unrolled<#n> for #name {
-            #chain
+            const CHAIN: ::ulna::SerialChain<#n> = Self::CHAIN;
             #(#kernels)*
         }
 
