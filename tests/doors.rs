@@ -1,0 +1,137 @@
+//! The doors to generated code, used as a user outside the workspace uses them: build script, macro, checked-in file.
+
+mod outside;
+
+use std::fs;
+
+use outside::{CHECKED_IN, Crate, root};
+use ulna::Model;
+
+const TABLE: &str = "arms/planar_2r.toml";
+
+/// What the generator writes today.
+fn generated() -> String {
+    let model = Model::load(root().join(TABLE)).unwrap();
+    ulna_codegen::generate(&model, TABLE).source()
+}
+
+/// Two mistakes in joint 2 of the planar arm.
+fn bad_table() -> String {
+    let good = fs::read_to_string(root().join(TABLE)).unwrap();
+    let (first, second) = good.split_once("[[joint]] # elbow").unwrap();
+    let second = second.replace("mass = 1.0", "mass = -1.0");
+    format!("{first}[[joint]]{}", second.replace("alpha", "alhpa"))
+}
+
+#[test]
+fn the_checked_in_file_is_what_the_generator_writes() {
+    let path = root().join(CHECKED_IN);
+    let new = generated();
+    if fs::read_to_string(&path).unwrap() != new {
+        fs::write(&path, new).unwrap();
+        panic!(
+            "{CHECKED_IN} was out of date. It has been written anew: read the change and commit it."
+        );
+    }
+}
+
+#[test]
+fn all_doors_lead_to_the_same_code() {
+    let outputs = ["build_script", "macro", "checked_in"].map(|name| {
+        let example = Crate::of_repository(&format!("examples/{name}"));
+        example.assert_lock_file_fits();
+        let build = example.build();
+        assert!(build.succeeded, "{name}:\n{}", build.stderr);
+        if let Some(out_dir) = build.out_dir {
+            assert_eq!(
+                fs::read_to_string(out_dir.join("planar_2r.rs")).unwrap(),
+                generated()
+            );
+        }
+        example.run()
+    });
+    assert!(outputs[0].contains("w_D = "), "{}", outputs[0]);
+    assert_eq!(outputs[0], outputs[1]);
+    assert_eq!(outputs[0], outputs[2]);
+}
+
+#[test]
+fn a_generated_arm_links_without_the_standard_library() {
+    let firmware = Crate::of_repository("tests/no_std");
+    firmware.assert_lock_file_fits();
+    let build = firmware.build();
+    assert!(build.succeeded, "{}", build.stderr);
+}
+
+#[test]
+fn a_bad_table_stops_the_macro_at_its_path() {
+    let user = Crate::of_user("macro_errors", "examples/macro");
+    user.write("arms/planar_2r.toml", &bad_table());
+    let build = user.build();
+    assert!(!build.succeeded);
+    let stderr = build.stderr;
+    insta::assert_snapshot!(stderr);
+}
+
+#[test]
+fn what_is_not_a_path_of_a_table_stops_the_macro() {
+    let user = Crate::of_user("macro_misuse", "examples/macro");
+    user.write("arms/planar_2r.toml", &bad_table());
+    let calls = [
+        "ssrms",
+        "\"arms/planar_2.toml\"",
+        "\"arms\"",
+        "\"a.toml\", \"b.toml\"",
+        "",
+    ];
+    let calls = calls.map(|call| format!("ulna_macros::arm!({call});\n"));
+    user.write(
+        "src/main.rs",
+        &format!("{}fn main() {{}}\n", calls.concat()),
+    );
+    let build = user.build();
+    assert!(!build.succeeded);
+    let stderr = build.stderr;
+    insta::assert_snapshot!(stderr);
+}
+
+#[test]
+fn a_bad_table_stops_the_build_script_with_the_same_text() {
+    let user = Crate::of_user("build_script_errors", "examples/build_script");
+    user.write("arms/planar_2r.toml", &bad_table());
+    let build = user.build();
+    assert!(!build.succeeded);
+    for line in Model::load(user.path("arms/planar_2r.toml"))
+        .unwrap_err()
+        .to_string()
+        .lines()
+    {
+        let line = line.replace(user.path("").to_str().unwrap(), "");
+        assert!(
+            build.stderr.contains(&line),
+            "{line:?} is missing in:\n{}",
+            build.stderr
+        );
+    }
+    assert!(!build.stderr.contains("panicked"), "{}", build.stderr);
+}
+
+#[test]
+fn a_changed_table_is_compiled_again() {
+    for (name, example) in [
+        ("macro_change", "macro"),
+        ("build_script_change", "build_script"),
+    ] {
+        let user = Crate::of_user(name, &format!("examples/{example}"));
+        let good = fs::read_to_string(root().join(TABLE)).unwrap();
+        user.write("arms/planar_2r.toml", &good);
+        assert!(user.build().succeeded);
+        let before = user.run();
+        user.write(
+            "arms/planar_2r.toml",
+            &good.replace("mass = 1.0", "mass = 2.0"),
+        );
+        assert!(user.build().succeeded);
+        assert_ne!(user.run(), before, "{example}");
+    }
+}
