@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 
-use crate::simd::{self, BatchCall, Lanes};
+use crate::simd::{self, BatchCall, Lanes, MAX_WIDTH};
 use crate::unrolled::{Margins, coordinate, is_singular};
 use crate::{Arm, SerialChain, Unrolled};
 
@@ -92,38 +92,42 @@ impl<const N: usize> Slots for (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
     }
 }
 
-/// What a kernel returns, number by number.
-trait Numbers<R>: Sized {
-    /// Calls `take` for each number with its index, which counts on from `first`; returns the next index.
-    fn each(&self, first: usize, take: &mut impl FnMut(usize, R)) -> usize;
+/// What a kernel returns on lanes `R`, to be handed out number by number.
+trait Numbers<R> {
+    /// Puts the numbers into the results of the lanes, the first number at `index`; returns the next index.
+    fn scatter<T: Slots>(&self, index: usize, out: &mut [T]) -> usize;
 }
 
 impl<R: Lanes> Numbers<R> for R {
     #[inline(always)]
-    fn each(&self, first: usize, take: &mut impl FnMut(usize, R)) -> usize {
-        take(first, *self);
-        first + 1
+    fn scatter<T: Slots>(&self, index: usize, out: &mut [T]) -> usize {
+        for (result, number) in out.iter_mut().zip(self.store()) {
+            result.put(index, number);
+        }
+        index + 1
     }
 }
 
 impl<R: Lanes, T: Numbers<R>, const K: usize> Numbers<R> for [T; K] {
     #[inline(always)]
-    fn each(&self, first: usize, take: &mut impl FnMut(usize, R)) -> usize {
-        self.iter()
-            .fold(first, |index, item| item.each(index, take))
+    fn scatter<S: Slots>(&self, mut index: usize, out: &mut [S]) -> usize {
+        for item in self {
+            index = item.scatter(index, out);
+        }
+        index
     }
 }
 
 /// Two results one after the other.
 impl<R: Lanes, A: Numbers<R>, B: Numbers<R>> Numbers<R> for (A, B) {
     #[inline(always)]
-    fn each(&self, first: usize, take: &mut impl FnMut(usize, R)) -> usize {
-        let next = self.0.each(first, take);
-        self.1.each(next, take)
+    fn scatter<T: Slots>(&self, index: usize, out: &mut [T]) -> usize {
+        let next = self.0.scatter(index, out);
+        self.1.scatter(next, out)
     }
 }
 
-/// The lanes of joint vectors from `start` on; the last vector repeats where there are too few.
+/// The lanes of joint vectors from `start` on, read by `read`; the last vector repeats where there are too few.
 #[inline(always)]
 fn gather<R: Lanes, const N: usize>(
     vectors: &[SVector<f64, N>],
@@ -131,45 +135,39 @@ fn gather<R: Lanes, const N: usize>(
     read: impl Fn(usize, f64) -> f64,
 ) -> [R; N] {
     let last = vectors.len() - 1;
-    core::array::from_fn(|joint| {
-        R::gather(|lane| read(joint, vectors[(start + lane).min(last)][joint]))
-    })
+    let mut lanes = [R::of(0.0); N];
+    for (joint, lanes) in lanes.iter_mut().enumerate() {
+        let mut numbers = [0.0; MAX_WIDTH];
+        for (lane, number) in numbers[..R::WIDTH].iter_mut().enumerate() {
+            *number = read(joint, vectors[(start + lane).min(last)][joint]);
+        }
+        *lanes = R::load(&numbers);
+    }
+    lanes
 }
 
-/// Hands the lanes' numbers out to the results that there are.
+/// Sets right what the singular ones among the lanes have.
 #[inline(always)]
-fn scatter<R: Lanes, T: Slots>(
-    numbers: &impl Numbers<R>,
-    margins: Option<&Margins<R>>,
-    out: &mut [T],
-) {
-    numbers.each(0, &mut |index, lanes: R| {
-        lanes.scatter(|lane, value| {
-            if let Some(out) = out.get_mut(lane) {
-                out.put(index, value);
-            }
-        });
-    });
-    if let Some(margins) = margins {
-        // No lanes are wider.
-        let mut apart = [[[0.0; 6]; 2]; 8];
-        for (part, row) in margins.iter().enumerate() {
-            for (index, lanes) in row.iter().enumerate() {
-                lanes.scatter(|lane, value| apart[lane][part][index] = value);
+fn settle<R: Lanes, T: Slots>(margins: &Margins<R>, out: &mut [T]) {
+    let mut apart = [[[0.0; 6]; 2]; MAX_WIDTH];
+    for (part, row) in margins.iter().enumerate() {
+        for (index, lanes) in row.iter().enumerate() {
+            for (margins, number) in apart.iter_mut().zip(lanes.store()) {
+                margins[part][index] = number;
             }
         }
-        for (out, margins) in out.iter_mut().zip(&apart) {
-            if is_singular(margins) {
-                out.settle();
-            }
+    }
+    for (result, margins) in out.iter_mut().zip(&apart) {
+        if is_singular(margins) {
+            result.settle();
         }
     }
 }
 
 /// Every method: its name in a batch, its own, the first argument `q` and the others, the result, the kernel,
-/// and how the numbers and the margins come out of what the kernel returns.
+/// and what of the kernel's returns are the numbers and, of w_D, the margins.
 macro_rules! methods {
-    ($($batch:ident $method:ident(q $(, $other:ident)*) -> $output:ty = $kernel:ident |$result:pat_param| $numbers:expr, $margins:expr;)+) => {
+    ($($batch:ident $method:ident(q $(, $other:ident)*) -> $output:ty = $kernel:ident |$result:pat_param| $numbers:expr $(, $margins:ident)?;)+) => {
         /// An arm that computes many states at once.
         ///
         /// Each method writes as many results as both the states and `out` have room for; lengths may be anything.
@@ -214,7 +212,8 @@ macro_rules! methods {
                                 let q = gather::<R, N>(self.q, start, read);
                                 $(let $other = gather::<R, N>(self.$other, start, |_, x| x);)*
                                 let $result = A::$kernel::<R>(&q $(, &$other)*);
-                                scatter(&$numbers, $margins, out);
+                                Numbers::<R>::scatter(&$numbers, 0, out);
+                                $(settle(&$margins, out);)?
                             }
                         }
                     }
@@ -231,19 +230,19 @@ macro_rules! methods {
 
 #[rustfmt::skip]
 methods! {
-    forward_kinematics_batch forward_kinematics(q) -> IsometryMatrix3<f64> = forward_kinematics_kernel |all| all, None;
-    geometric_jacobian_batch geometric_jacobian(q) -> SMatrix<f64, 6, N> = geometric_jacobian_kernel |all| all, None;
-    jacobian_derivatives_batch jacobian_derivatives(q) -> [SMatrix<f64, 6, N>; N] = jacobian_derivatives_kernel |all| all, None;
-    mass_matrix_batch mass_matrix(q) -> SMatrix<f64, N, N> = mass_matrix_kernel |all| all, None;
-    mass_matrix_derivatives_batch mass_matrix_derivatives(q) -> [SMatrix<f64, N, N>; N] = mass_matrix_derivatives_kernel |all| all, None;
-    dynamic_manipulability_batch dynamic_manipulability(q) -> f64 = dynamic_manipulability_kernel |(value, margins)| value, Some(&margins);
-    dynamic_manipulability_gradient_batch dynamic_manipulability_gradient(q) -> (f64, SVector<f64, N>) = dynamic_manipulability_gradient_kernel |(value, gradient, margins)| (value, gradient), Some(&margins);
-    inverse_dynamics_batch inverse_dynamics(q, qd, qdd) -> SVector<f64, N> = inverse_dynamics_kernel |all| all, None;
-    bias_force_batch bias_force(q, qd) -> SVector<f64, N> = bias_force_kernel |all| all, None;
-    gravity_torque_batch gravity_torque(q) -> SVector<f64, N> = gravity_torque_kernel |all| all, None;
-    forward_dynamics_batch forward_dynamics(q, qd, tau) -> SVector<f64, N> = forward_dynamics_kernel |all| all, None;
-    mass_matrix_and_derivatives_batch mass_matrix_and_derivatives(q) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) = mass_matrix_and_derivatives_kernel |all| all, None;
-    jacobian_and_gradient_batch jacobian_and_gradient(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) = jacobian_and_gradient_kernel |(jacobian, value, gradient, margins)| (jacobian, (value, gradient)), Some(&margins);
+    forward_kinematics_batch forward_kinematics(q) -> IsometryMatrix3<f64> = forward_kinematics_kernel |all| all;
+    geometric_jacobian_batch geometric_jacobian(q) -> SMatrix<f64, 6, N> = geometric_jacobian_kernel |all| all;
+    jacobian_derivatives_batch jacobian_derivatives(q) -> [SMatrix<f64, 6, N>; N] = jacobian_derivatives_kernel |all| all;
+    mass_matrix_batch mass_matrix(q) -> SMatrix<f64, N, N> = mass_matrix_kernel |all| all;
+    mass_matrix_derivatives_batch mass_matrix_derivatives(q) -> [SMatrix<f64, N, N>; N] = mass_matrix_derivatives_kernel |all| all;
+    dynamic_manipulability_batch dynamic_manipulability(q) -> f64 = dynamic_manipulability_kernel |(value, margins)| value, margins;
+    dynamic_manipulability_gradient_batch dynamic_manipulability_gradient(q) -> (f64, SVector<f64, N>) = dynamic_manipulability_gradient_kernel |(value, gradient, margins)| (value, gradient), margins;
+    inverse_dynamics_batch inverse_dynamics(q, qd, qdd) -> SVector<f64, N> = inverse_dynamics_kernel |all| all;
+    bias_force_batch bias_force(q, qd) -> SVector<f64, N> = bias_force_kernel |all| all;
+    gravity_torque_batch gravity_torque(q) -> SVector<f64, N> = gravity_torque_kernel |all| all;
+    forward_dynamics_batch forward_dynamics(q, qd, tau) -> SVector<f64, N> = forward_dynamics_kernel |all| all;
+    mass_matrix_and_derivatives_batch mass_matrix_and_derivatives(q) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) = mass_matrix_and_derivatives_kernel |all| all;
+    jacobian_and_gradient_batch jacobian_and_gradient(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) = jacobian_and_gradient_kernel |(jacobian, value, gradient, margins)| (jacobian, (value, gradient)), margins;
 }
 
 /// Runs `batch` on chunks of the states in parallel: `in_parallel(&q, &mut out, |q, out| arm.mass_matrix_batch(q, out))`.

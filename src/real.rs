@@ -41,8 +41,11 @@ pub trait Real:
     /// Sines and cosines of several angles at once, each within ±2²⁶ rad.
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
-        let both = angles.map(Self::sin_cos);
-        (both.map(|(sin, _)| sin), both.map(|(_, cos)| cos))
+        let (mut sines, mut cosines) = (angles, angles);
+        for i in 0..K {
+            (sines[i], cosines[i]) = angles[i].sin_cos();
+        }
+        (sines, cosines)
     }
 }
 
@@ -93,8 +96,11 @@ scalar!(f64, libm::sqrt, libm::sincos, {
     /// By [`trigonometry`](crate::trigonometry), as lanes do it.
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
-        let both = angles.map(crate::trigonometry::sin_cos);
-        (both.map(|(sin, _)| sin), both.map(|(_, cos)| cos))
+        let (mut sines, mut cosines) = (angles, angles);
+        for i in 0..K {
+            (sines[i], cosines[i]) = crate::trigonometry::sin_cos(angles[i]);
+        }
+        (sines, cosines)
     }
 });
 scalar!(f32, libm::sqrtf, libm::sincosf, {});

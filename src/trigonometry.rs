@@ -67,11 +67,10 @@ impl Quarters for f64 {
 pub fn sin_cos<R: Quarters>(angle: R) -> (R, R) {
     let quarters = angle.mul_add(R::of(FRAC_2_PI), R::of(ROUNDER));
     let whole = quarters - R::of(ROUNDER);
-    let [high, middle, low] = PARTS.map(R::of);
-    let x = whole.neg_mul_add(
-        low,
-        whole.neg_mul_add(middle, whole.neg_mul_add(high, angle)),
-    );
+    let [high, middle, low] = PARTS;
+    let x = whole.neg_mul_add(R::of(high), angle);
+    let x = whole.neg_mul_add(R::of(middle), x);
+    let x = whole.neg_mul_add(R::of(low), x);
     let square = x * x;
     let sin = polynomial(&SIN, square).mul_add(square * x, x);
     let cos = polynomial(&COS, square)
@@ -81,10 +80,11 @@ pub fn sin_cos<R: Quarters>(angle: R) -> (R, R) {
 
 #[inline(always)]
 fn polynomial<R: Real>(coefficients: &[f64; 6], x: R) -> R {
-    let [first, rest @ ..] = coefficients;
-    rest.iter().fold(R::of(*first), |sum, coefficient| {
-        sum.mul_add(x, R::of(*coefficient))
-    })
+    let mut sum = R::of(coefficients[0]);
+    for coefficient in &coefficients[1..] {
+        sum = sum.mul_add(x, R::of(*coefficient));
+    }
+    sum
 }
 
 #[cfg(test)]

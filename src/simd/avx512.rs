@@ -3,7 +3,7 @@
 use core::arch::x86_64::*;
 use core::ops::Neg;
 
-use super::{Lanes, operators};
+use super::{Lanes, MAX_WIDTH, operators};
 use crate::Real;
 use crate::trigonometry::{Quarters, sin_cos};
 
@@ -88,17 +88,14 @@ impl Lanes for Avx512 {
     const WIDTH: usize = 8;
 
     #[inline(always)]
-    fn gather(number: impl Fn(usize) -> f64) -> Self {
-        let numbers: [f64; 8] = core::array::from_fn(number);
+    fn load(numbers: &[f64; MAX_WIDTH]) -> Self {
         unsafe { Self(_mm512_loadu_pd(numbers.as_ptr())) }
     }
 
     #[inline(always)]
-    fn scatter(self, mut take: impl FnMut(usize, f64)) {
-        let mut numbers = [0.0; 8];
+    fn store(self) -> [f64; MAX_WIDTH] {
+        let mut numbers = [0.0; MAX_WIDTH];
         unsafe { _mm512_storeu_pd(numbers.as_mut_ptr(), self.0) };
-        for (lane, number) in numbers.into_iter().enumerate() {
-            take(lane, number);
-        }
+        numbers
     }
 }

@@ -21,10 +21,10 @@ unsafe impl Pod for Fused {}
 impl Double for Fused {}
 
 operators!(Fused:
-    Add add |a: f64, b| a + b,
-    Sub sub |a: f64, b| a - b,
-    Mul mul |a: f64, b| a * b,
-    Div div |a: f64, b| a / b);
+    Add add |a, b| a + b,
+    Sub sub |a, b| a - b,
+    Mul mul |a, b| a * b,
+    Div div |a, b| a / b);
 
 impl Neg for Fused {
     type Output = Self;

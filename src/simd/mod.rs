@@ -2,6 +2,9 @@
 //!
 //! The only module with `unsafe` in it. What makes it sound: a function compiled for an instruction set is called only
 //! after the processor has been asked for it.
+//!
+//! What runs on these scalars must end up inside such a function, or each instruction becomes a call: functions over
+//! [`Real`] are inlined always, and loop instead of handing closures to iterators, which are functions of their own.
 #![allow(unsafe_code)]
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
@@ -38,12 +41,15 @@ pub trait Lanes: Real {
     /// How many.
     const WIDTH: usize;
 
-    /// The lanes' numbers, each from its index.
-    fn gather(number: impl Fn(usize) -> f64) -> Self;
+    /// The first numbers of the array.
+    fn load(numbers: &[f64; MAX_WIDTH]) -> Self;
 
-    /// Hands out each lane's number with its index.
-    fn scatter(self, take: impl FnMut(usize, f64));
+    /// The lanes' numbers, the first of the array.
+    fn store(self) -> [f64; MAX_WIDTH];
 }
+
+/// No lanes are wider.
+pub const MAX_WIDTH: usize = 8;
 
 /// A computation on lanes.
 pub trait BatchCall {
@@ -99,17 +105,18 @@ fn run_avx512<C: BatchCall>(call: C) {
     call.run::<avx512::Avx512>();
 }
 
-/// Operators of a newtype, each by a function of its field.
+/// Operators of a newtype, each by an expression over both fields.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 macro_rules! operators {
-    ($type:ident: $($trait:ident $method:ident $function:expr),+) => {
+    ($type:ident: $($trait:ident $method:ident |$a:ident, $b:ident| $value:expr),+) => {
         $(
             impl core::ops::$trait for $type {
                 type Output = Self;
 
                 #[inline(always)]
                 fn $method(self, other: Self) -> Self {
-                    Self($function(self.0, other.0))
+                    let ($a, $b) = (self.0, other.0);
+                    Self($value)
                 }
             }
         )+

@@ -2,7 +2,7 @@
 
 use wide::{f32x4, f32x8, f64x2, f64x4, f64x8};
 
-use super::Lanes;
+use super::{Lanes, MAX_WIDTH};
 use crate::Real;
 use crate::trigonometry::{self, Quarters};
 
@@ -34,16 +34,21 @@ macro_rules! wide {
             const WIDTH: usize = $width;
 
             #[inline(always)]
-            fn gather(number: impl Fn(usize) -> f64) -> Self {
-                let numbers: [$scalar; $width] = core::array::from_fn(|i| number(i) as $scalar);
-                Self::from(numbers)
+            fn load(numbers: &[f64; MAX_WIDTH]) -> Self {
+                let mut lanes = [0.0; $width];
+                for (lane, number) in lanes.iter_mut().zip(numbers) {
+                    *lane = *number as $scalar;
+                }
+                Self::from(lanes)
             }
 
             #[inline(always)]
-            fn scatter(self, mut take: impl FnMut(usize, f64)) {
-                for (lane, number) in self.to_array().into_iter().enumerate() {
-                    take(lane, f64::from(number));
+            fn store(self) -> [f64; MAX_WIDTH] {
+                let mut numbers = [0.0; MAX_WIDTH];
+                for (number, lane) in numbers.iter_mut().zip(self.to_array()) {
+                    *number = f64::from(lane);
                 }
+                numbers
             }
         }
     };
@@ -62,12 +67,11 @@ macro_rules! quarters {
             impl Quarters for $lanes {
                 #[inline(always)]
                 fn turn(quarters: Self, sin: Self, cos: Self) -> (Self, Self) {
-                    let (quarters, sin, cos) = (quarters.to_array(), sin.to_array(), cos.to_array());
-                    let turned = |i: usize| f64::turn(quarters[i], sin[i], cos[i]);
-                    (
-                        Self::from(core::array::from_fn(|i| turned(i).0)),
-                        Self::from(core::array::from_fn(|i| turned(i).1)),
-                    )
+                    let (quarters, mut sin, mut cos) = (quarters.to_array(), sin.to_array(), cos.to_array());
+                    for (i, quarters) in quarters.into_iter().enumerate() {
+                        (sin[i], cos[i]) = f64::turn(quarters, sin[i], cos[i]);
+                    }
+                    (Self::from(sin), Self::from(cos))
                 }
             }
         )+
