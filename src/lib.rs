@@ -17,6 +17,7 @@ pub mod real;
 #[cfg(feature = "table")]
 pub mod scenario;
 pub mod simd;
+pub mod simulation;
 #[cfg(feature = "table")]
 mod table;
 #[cfg(feature = "table")]
