@@ -161,6 +161,11 @@ impl<const N: usize> TaskPose<N> {
         }
     }
 
+    /// The rows of J that make up the task.
+    pub fn task(&self) -> TaskRows {
+        self.task
+    }
+
     /// P x for the moving joints, times the factor of the rule near singular poses.
     #[inline]
     pub fn project(&self, x: &SVector<f64, N>) -> SVector<f64, N> {
@@ -213,11 +218,87 @@ pub enum Status {
     Saturated,
     /// The pose is near-singular: the compensation is faded out (the rule stands at the module's head).
     NearSingular,
-    /// Motion and tool wrench alone ask for more than a rated torque. There is no compensation,
-    /// the torque is cut to the rated one, and the tool wrench is not kept.
+    /// Motion and tool wrench alone ask for more than a rated torque, and the compensation does not cure it.
+    /// The torque is cut to the rated one, and the tool wrench is not kept.
     Overloaded,
     /// An argument or a result is no finite number: torque and compensation are 0.
     NotFinite,
+}
+
+/// The two-sided Eq. 14 for the joints that are not locked.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits<const N: usize> {
+    pub(crate) rated_torque: SVector<f64, N>,
+    pub(crate) locked: LockedJoints<N>,
+}
+
+/// What a torque may exceed the rated one by before it counts, relative: solvers keep limits to a tolerance.
+const LIMIT_TOLERANCE: f64 = 1e-9;
+
+impl<const N: usize> Limits<N> {
+    /// The torques within the rated ones, and what had to be done for it.
+    #[inline]
+    pub(crate) fn cut(
+        &self,
+        planned: &SVector<f64, N>,
+        compensation: &SVector<f64, N>,
+        law: Law,
+    ) -> (SVector<f64, N>, Status) {
+        let exceeds = |torque: &SVector<f64, N>, i: usize| {
+            torque[i].abs() > self.rated_torque[i] * (1.0 + LIMIT_TOLERANCE)
+        };
+        let wanted = planned + compensation;
+        let mut status = Status::Nominal;
+        for i in self.locked.healthy() {
+            if exceeds(&wanted, i) {
+                status = status.max(if exceeds(planned, i) {
+                    Status::Overloaded
+                } else {
+                    Status::Saturated
+                });
+            }
+        }
+        let torque = match (status, law) {
+            (Status::Nominal, _) | (_, Law::PerJoint) => wanted,
+            (_, Law::Projected | Law::Optimal) => match self.scale(planned, compensation) {
+                Some(scale) => {
+                    status = Status::Saturated;
+                    planned + compensation * scale
+                }
+                None => {
+                    status = Status::Overloaded;
+                    *planned
+                }
+            },
+        };
+        let within = SVector::from_fn(|i, _| {
+            if self.locked.contains(i) {
+                torque[i]
+            } else {
+                let rated = self.rated_torque[i];
+                torque[i].max(-rated).min(rated)
+            }
+        });
+        (within, status)
+    }
+
+    /// The largest s in 0 to 1 with `|planned + s compensation|` within the rated torques, if there is one.
+    fn scale(&self, planned: &SVector<f64, N>, compensation: &SVector<f64, N>) -> Option<f64> {
+        let (mut least, mut most) = (0.0_f64, 1.0_f64);
+        for i in self.locked.healthy() {
+            let (rated, planned, slope) = (self.rated_torque[i], planned[i], compensation[i]);
+            if slope == 0.0 {
+                if planned.abs() > rated {
+                    return None;
+                }
+                continue;
+            }
+            let towards = rated.copysign(slope);
+            least = least.max((-towards - planned) / slope);
+            most = most.min((towards - planned) / slope);
+        }
+        (least <= most).then_some(most)
+    }
 }
 
 /// What one control cycle gives.
@@ -277,8 +358,8 @@ impl<'a, A: Arm<N>, const N: usize> Controller<'a, A, N> {
     /// (`[f; n]`, world axes, at the tool point) and whose `locked` joints stand still whatever `state` says.
     ///
     /// Where the compensation would break Eq. 14, [`Compensation::PerJoint`] is cut joint by joint, as its coefficients are;
-    /// the other two are scaled as a whole, so that the tool force stays as it is. A locked joint's torque is
-    /// its brake's and is never cut.
+    /// the other two are scaled as a whole, so that the tool force stays as it is, and left out if no scale will do.
+    /// A locked joint's torque is its brake's and is never cut.
     #[inline]
     pub fn cycle(
         &self,
@@ -291,7 +372,12 @@ impl<'a, A: Arm<N>, const N: usize> Controller<'a, A, N> {
         let planned = self.arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
             + pose.jacobian.tr_mul(wrench);
         let conditioning = pose.null_space.conditioning();
-        let (torque, cut) = self.limit(&planned, &pose.compensation(&self.compensation), locked);
+        let limits = Limits {
+            rated_torque: self.rated_torque,
+            locked,
+        };
+        let wanted = pose.compensation(&self.compensation);
+        let (torque, cut) = limits.cut(&planned, &wanted, self.compensation.law());
         let compensation = torque - planned;
         let force_error = pose.null_space.static_wrench(&compensation);
         let singular = if conditioning < NEAR_SINGULAR {
@@ -314,54 +400,6 @@ impl<'a, A: Arm<N>, const N: usize> Controller<'a, A, N> {
             conditioning,
             status: cut.max(singular),
         }
-    }
-
-    /// The torques within the rated ones, and what had to be done for it.
-    fn limit(
-        &self,
-        planned: &SVector<f64, N>,
-        compensation: &SVector<f64, N>,
-        locked: LockedJoints<N>,
-    ) -> (SVector<f64, N>, Status) {
-        let rated = &self.rated_torque;
-        let mut overloaded = false;
-        let mut within = true;
-        let mut scale = 1.0_f64;
-        for i in locked.healthy() {
-            overloaded |= planned[i].abs() > rated[i];
-            let torque = planned[i] + compensation[i];
-            if torque.abs() > rated[i] {
-                within = false;
-                let room = rated[i].copysign(compensation[i]) - planned[i];
-                scale = scale.min(room / compensation[i]);
-            }
-        }
-        if within {
-            return (planned + compensation, Status::Nominal);
-        }
-        let wanted = if overloaded {
-            *planned
-        } else {
-            match self.compensation {
-                Compensation::PerJoint(_) => planned + compensation,
-                Compensation::Projected(_) | Compensation::Optimal { .. } => {
-                    planned + compensation * scale.max(0.0)
-                }
-            }
-        };
-        let torque = SVector::from_fn(|i, _| {
-            if locked.contains(i) {
-                planned[i]
-            } else {
-                wanted[i].max(-rated[i]).min(rated[i])
-            }
-        });
-        let status = if overloaded {
-            Status::Overloaded
-        } else {
-            Status::Saturated
-        };
-        (torque, status)
     }
 
     fn nothing(&self) -> Cycle<N> {

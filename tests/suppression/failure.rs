@@ -22,7 +22,7 @@ fn recursion_is_the_difference_of_two_newton_euler_passes() {
             gravity: [0.0; 3],
             ..*chain
         };
-        for state in states(chain, 20) {
+        for state in states(chain, 10) {
             for locked in sets() {
                 let after = locked.hold(&state);
                 let loads_before = chain.joint_loads(&state.q, &state.qd, &state.qdd);
@@ -83,7 +83,7 @@ fn gravity_drops_out() {
 fn a_varying_wrench_adds_its_static_torque() {
     fn check<const N: usize>(chain: &SerialChain<N>, name: &str) {
         let delta = Vector6::new(3.0, -1.0, 2.0, 0.5, 0.25, -0.75);
-        for state in states(chain, 20) {
+        for state in states(chain, 10) {
             for locked in [LockedJoints::NONE, LockedJoints::new(&[0]).unwrap()] {
                 let steady = impact_torque(chain, &state, locked, &Vector6::zeros());
                 let varying = impact_torque(chain, &state, locked, &delta);
