@@ -14,6 +14,8 @@ pub mod model;
 pub mod null_space;
 pub mod proof;
 pub mod real;
+#[cfg(feature = "std")]
+pub mod search;
 #[cfg(feature = "table")]
 pub mod scenario;
 pub mod simd;

@@ -3,4 +3,5 @@
 mod arms;
 mod compensation;
 mod failure;
+mod search;
 mod trajectory;
