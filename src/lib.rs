@@ -14,10 +14,10 @@ pub mod model;
 pub mod null_space;
 pub mod proof;
 pub mod real;
-#[cfg(feature = "std")]
-pub mod search;
 #[cfg(feature = "table")]
 pub mod scenario;
+#[cfg(feature = "std")]
+pub mod search;
 pub mod simd;
 pub mod simulation;
 #[cfg(feature = "table")]
