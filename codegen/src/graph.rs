@@ -6,7 +6,6 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::fmt;
-use std::ops;
 
 use crate::op::Op;
 
@@ -139,7 +138,7 @@ impl Graph {
         }
     }
 
-    fn intern(&self, node: Node) -> Expr<'_> {
+    pub(crate) fn intern(&self, node: Node) -> Expr<'_> {
         let id = *self.places.borrow_mut().entry(node).or_insert_with(|| {
             let mut nodes = self.nodes.borrow_mut();
             nodes.push(node);
@@ -148,7 +147,7 @@ impl Graph {
         self.expr(id)
     }
 
-    fn find(&self, node: Node) -> Option<Expr<'_>> {
+    pub(crate) fn find(&self, node: Node) -> Option<Expr<'_>> {
         self.places.borrow().get(&node).map(|id| self.expr(*id))
     }
 }
@@ -209,11 +208,11 @@ impl<'g> Expr<'g> {
         }
     }
 
-    fn node(self, op: Op, other: Self) -> Self {
+    pub(crate) fn node(self, op: Op, other: Self) -> Self {
         self.graph.intern(Node::Apply(op, self.id, other.id))
     }
 
-    fn sorted(self, other: Self) -> (Self, Self) {
+    pub(crate) fn sorted(self, other: Self) -> (Self, Self) {
         if self.id <= other.id {
             (self, other)
         } else {
@@ -230,12 +229,12 @@ impl<'g> Expr<'g> {
     }
 
     /// `x` of `-x`.
-    fn negated(self) -> Option<Self> {
+    pub(crate) fn negated(self) -> Option<Self> {
         self.arguments(Op::Neg).map(|(x, _)| x)
     }
 
     /// `c` and `x` of `c + x`, `x - c` or `c - x`, where `c` is a number; and of the number itself.
-    fn raised(self) -> Option<(f64, Self)> {
+    pub(crate) fn raised(self) -> Option<(f64, Self)> {
         if let Some(c) = self.value() {
             return Some((c, self.of(0.0)));
         }
@@ -247,145 +246,8 @@ impl<'g> Expr<'g> {
     }
 
     /// `c` and `x` of `c * x`, where `c` is a number.
-    fn scaled(self) -> Option<(f64, Self)> {
+    pub(crate) fn scaled(self) -> Option<(f64, Self)> {
         let (a, b) = self.arguments(Op::Mul)?;
         a.value().map(|c| (c, b)).or(b.value().map(|c| (c, a)))
-    }
-}
-
-// The folding rules, one a line; the first that fits is taken.
-
-impl ops::Neg for Expr<'_> {
-    type Output = Self;
-
-    fn neg(self) -> Self {
-        if let Some(value) = self.value() {
-            return self.of(-value);
-        }
-        if let Some(x) = self.negated() {
-            return x;
-        }
-        self.node(Op::Neg, self)
-    }
-}
-
-impl ops::Add for Expr<'_> {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        match (self.value(), other.value()) {
-            (Some(a), Some(b)) => return self.of(a + b),
-            (Some(0.0), _) => return other,
-            (_, Some(0.0)) => return self,
-            (Some(a), _) if a < 0.0 => return other - self.of(-a),
-            (_, Some(b)) if b < 0.0 => return self - self.of(-b),
-            _ => {}
-        }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => return -(a + b),
-            (Some(a), None) => return other - a,
-            (None, Some(b)) => return self - b,
-            _ => {}
-        }
-        if let Some(combined) = combine(self, other, |c, d| c + d) {
-            return combined;
-        }
-        // (c + x) + (d + y) = (c + d) + (x + y)
-        if let (Some((c, x)), Some((d, y))) = (self.raised(), other.raised()) {
-            return self.of(c + d) + (x + y);
-        }
-        let (a, b) = self.sorted(other);
-        a.node(Op::Add, b)
-    }
-}
-
-impl ops::Sub for Expr<'_> {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        match (self.value(), other.value()) {
-            (Some(a), Some(b)) => return self.of(a - b),
-            (Some(0.0), _) => return -other,
-            (_, Some(0.0)) => return self,
-            (_, Some(b)) if b < 0.0 => return self + self.of(-b),
-            _ => {}
-        }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => return b - a,
-            (Some(a), None) => return -(a + other),
-            (None, Some(b)) => return self + b,
-            _ => {}
-        }
-        if let Some(combined) = combine(self, other, |c, d| c - d) {
-            return combined;
-        }
-        // (c + x) - (d + y) = (c - d) + (x - y)
-        if let (Some((c, x)), Some((d, y))) = (self.raised(), other.raised()) {
-            return self.of(c - d) + (x - y);
-        }
-        // One of a - b and b - a is enough.
-        if let Some(reversed) = self.graph.find(Node::Apply(Op::Sub, other.id, self.id)) {
-            return -reversed;
-        }
-        self.node(Op::Sub, other)
-    }
-}
-
-/// `c x ± d x = (c ± d) x` for numbers `c` and `d`.
-fn combine<'g>(a: Expr<'g>, b: Expr<'g>, sum: fn(f64, f64) -> f64) -> Option<Expr<'g>> {
-    let (c, x) = a.scaled().unwrap_or((1.0, a));
-    let (d, y) = b.scaled().unwrap_or((1.0, b));
-    (x == y).then(|| a.of(sum(c, d)) * x)
-}
-
-impl ops::Mul for Expr<'_> {
-    type Output = Self;
-
-    fn mul(self, other: Self) -> Self {
-        match (self.value(), other.value()) {
-            (Some(a), Some(b)) => return self.of(a * b),
-            (Some(0.0), _) | (_, Some(0.0)) => return self.of(0.0),
-            (Some(1.0), _) => return other,
-            (_, Some(1.0)) => return self,
-            (Some(a), _) if a < 0.0 => return -(self.of(-a) * other),
-            (_, Some(b)) if b < 0.0 => return -(self * other.of(-b)),
-            _ => {}
-        }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => return a * b,
-            (Some(a), None) => return -(a * other),
-            (None, Some(b)) => return -(self * b),
-            _ => {}
-        }
-        // c (d x) = (c d) x
-        match (self.value(), other.value(), self.scaled(), other.scaled()) {
-            (Some(c), _, _, Some((d, x))) | (_, Some(c), Some((d, x)), _) => {
-                return self.of(c * d) * x;
-            }
-            _ => {}
-        }
-        let (a, b) = self.sorted(other);
-        a.node(Op::Mul, b)
-    }
-}
-
-impl ops::Div for Expr<'_> {
-    type Output = Self;
-
-    fn div(self, other: Self) -> Self {
-        match (self.value(), other.value()) {
-            (Some(a), Some(b)) => return self.of(a / b),
-            (Some(0.0), _) => return self,
-            (_, Some(b)) => return self * self.of(1.0 / b),
-            (Some(a), _) if a < 0.0 => return -(self.of(-a) / other),
-            _ => {}
-        }
-        match (self.negated(), other.negated()) {
-            (Some(a), Some(b)) => return a / b,
-            (Some(a), None) => return -(a / other),
-            (None, Some(b)) => return -(self / b),
-            _ => {}
-        }
-        self.node(Op::Div, other)
     }
 }

@@ -14,6 +14,7 @@ pub mod build;
 pub mod cost;
 pub mod differentiate;
 pub mod emit;
+mod fold;
 pub mod formulate;
 pub mod graph;
 pub mod interpret;

@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use ulna::{Joint, JointKind, Link, Model, Placement};
 
-use super::expression::literal;
+use super::literal::literal;
 
 /// `pub const CHAIN: SerialChain<N>`.
 pub(super) fn chain(model: &Model) -> TokenStream {

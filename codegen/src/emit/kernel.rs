@@ -3,7 +3,8 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::expression::{Writer, literal};
+use super::expression::Writer;
+use super::literal::literal;
 use crate::Method;
 use crate::cost::Counts;
 use crate::graph::AngleSum;

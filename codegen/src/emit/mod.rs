@@ -3,6 +3,7 @@
 mod chain;
 mod expression;
 mod kernel;
+mod literal;
 
 use std::fmt::Write as _;
 
