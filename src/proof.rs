@@ -57,8 +57,9 @@ pub fn states<const N: usize>(chain: &SerialChain<N>) -> impl Iterator<Item = St
 pub struct Deviation {
     /// The method of [`Arm`].
     pub method: &'static str,
-    /// The largest relative error over the states: the largest difference of two entries, divided by the
-    /// reference's largest entry (for w_D and ∇w_D: of both together; for J, dJ, M and dM: of all their matrices).
+    /// The largest relative error over the states: the largest difference of two entries, divided by the reference's
+    /// largest entry at that state. What can vanish while its terms do not is measured beside a quantity that does not:
+    /// ∇w_D beside w_D, dJ beside J, dM beside M, bias force and gravity torque beside the inverse dynamics.
     pub error: f64,
     /// What rounding alone may leave when the reference is a [`SerialChain`], at states like those of [`states`].
     ///
@@ -173,20 +174,28 @@ fn errors<const N: usize>(
             candidate.$method($($argument),*).error(&reference.$method($($argument),*))
         };
     }
+    macro_rules! beside {
+        ($scale:expr, $method:ident($($argument:expr),*)) => {
+            ($scale, candidate.$method($($argument),*)).error(&($scale, reference.$method($($argument),*)))
+        };
+    }
+    let jacobian = reference.geometric_jacobian(q);
+    let mass = reference.mass_matrix(q);
+    let torque = reference.inverse_dynamics(q, qd, qdd);
     let equal = |same: bool| if same { 0.0 } else { f64::INFINITY };
     [
         equal(candidate.task() == reference.task()),
         equal(candidate.rated_torque() == reference.rated_torque()),
         both!(forward_kinematics(q)),
         both!(geometric_jacobian(q)),
-        both!(jacobian_derivatives(q)),
+        beside!(jacobian, jacobian_derivatives(q)),
         both!(mass_matrix(q)),
-        both!(mass_matrix_derivatives(q)),
+        beside!(mass, mass_matrix_derivatives(q)),
         both!(dynamic_manipulability(q)),
         both!(dynamic_manipulability_gradient(q)),
         both!(inverse_dynamics(q, qd, qdd)),
-        both!(bias_force(q, qd)),
-        both!(gravity_torque(q)),
+        beside!(torque, bias_force(q, qd)),
+        beside!(torque, gravity_torque(q)),
         both!(forward_dynamics(q, qd, tau)),
         both!(mass_matrix_and_derivatives(q)),
         both!(jacobian_and_gradient(q)),
@@ -211,9 +220,21 @@ impl<const R: usize, const C: usize> Quantity for SMatrix<f64, R, C> {
     }
 }
 
-impl<const R: usize, const C: usize, const K: usize> Quantity for [SMatrix<f64, R, C>; K] {
+/// A vector beside one of the same kind.
+impl<const R: usize, const C: usize> Quantity for (SMatrix<f64, R, C>, SMatrix<f64, R, C>) {
     fn error(&self, reference: &Self) -> f64 {
-        relative(self.iter().zip(reference).flat_map(|(a, b)| pairs(a, b)))
+        relative(pairs(&self.0, &reference.0).chain(pairs(&self.1, &reference.1)))
+    }
+}
+
+/// A matrix and its derivatives.
+impl<const R: usize, const C: usize, const K: usize> Quantity
+    for (SMatrix<f64, R, C>, [SMatrix<f64, R, C>; K])
+{
+    fn error(&self, reference: &Self) -> f64 {
+        let derivatives = self.1.iter().zip(&reference.1);
+        let derivatives = derivatives.flat_map(|(a, b)| pairs(a, b));
+        relative(pairs(&self.0, &reference.0).chain(derivatives))
     }
 }
 
@@ -227,13 +248,6 @@ impl Quantity for IsometryMatrix3<f64> {
 impl<const N: usize> Quantity for (f64, SVector<f64, N>) {
     fn error(&self, reference: &Self) -> f64 {
         relative(pairs(&self.1, &reference.1).chain([(self.0, reference.0)]))
-    }
-}
-
-/// M and its derivatives.
-impl<const N: usize> Quantity for (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) {
-    fn error(&self, reference: &Self) -> f64 {
-        worse(self.0.error(&reference.0), self.1.error(&reference.1))
     }
 }
 

@@ -6,11 +6,13 @@ use ulna::proof::{Deviation, State};
 
 /// Step, rad (m): the truncation of the difference and the rounding of what it is taken of are about alike.
 const STEP: f64 = 1e-5;
+/// Distance of a singular configuration, rad (m), within which ∇w_D is not compared.
+const KINK: f64 = 1e3 * STEP;
 
 /// The largest relative errors of ∂J/∂q_i, ∂M/∂q_i and ∇w_D at `states`.
 ///
 /// What the differences themselves leave is within the tolerances: 1e-9 or so, and more for w_D, whose rounding grows with
-/// the condition of M and which bends sharply near singular configurations.
+/// the condition of M.
 pub(crate) fn compare<const N: usize>(
     arm: &impl Arm<N>,
     states: impl Iterator<Item = State<N>>,
@@ -41,7 +43,13 @@ fn errors<const N: usize>(arm: &impl Arm<N>, q: &SVector<f64, N>) -> [f64; 3] {
         (Error::default(), Error::default(), Error::default());
     let jacobian_derivatives = arm.jacobian_derivatives(q);
     let mass_derivatives = arm.mass_matrix_derivatives(q);
-    let (_, manipulability_gradient) = arm.dynamic_manipulability_gradient(q);
+    let (manipulability, manipulability_gradient) = arm.dynamic_manipulability_gradient(q);
+    // A derivative that vanishes has the rounding of what it is taken of all the same.
+    jacobian.scale = arm.geometric_jacobian(q).amax();
+    mass.scale = arm.mass_matrix(q).amax();
+    gradient.scale = manipulability;
+    // Closer than this to a singular configuration w_D has a kink, which a difference would average over.
+    let smooth = manipulability > KINK * manipulability_gradient.norm();
     for i in 0..N {
         let (mut ahead, mut behind) = (*q, *q);
         ahead[i] += STEP;
@@ -51,8 +59,11 @@ fn errors<const N: usize>(arm: &impl Arm<N>, q: &SVector<f64, N>) -> [f64; 3] {
         jacobian.add(jacobian_derivatives[i].as_slice(), difference.as_slice());
         let difference = (arm.mass_matrix(&ahead) - arm.mass_matrix(&behind)) / width;
         mass.add(mass_derivatives[i].as_slice(), difference.as_slice());
-        let difference = arm.dynamic_manipulability(&ahead) - arm.dynamic_manipulability(&behind);
-        gradient.add(&[manipulability_gradient[i]], &[difference / width]);
+        if smooth {
+            let difference =
+                arm.dynamic_manipulability(&ahead) - arm.dynamic_manipulability(&behind);
+            gradient.add(&[manipulability_gradient[i]], &[difference / width]);
+        }
     }
     [jacobian, mass, gradient].map(Error::relative)
 }
