@@ -94,3 +94,37 @@ impl Error {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use ulna::nalgebra::Vector2;
+    use ulna::{Model, SerialChain, proof};
+
+    use super::*;
+
+    fn planar() -> SerialChain<2> {
+        let table = include_str!("../../arms/planar_2r.toml");
+        let model = Model::parse(table, "planar_2r.toml").unwrap();
+        SerialChain::new(&model).unwrap()
+    }
+
+    #[test]
+    fn right_derivatives_pass() {
+        let arm = planar();
+        let deviations = compare(&arm, proof::states(&arm).take(50));
+        assert!(deviations.iter().all(Deviation::passes), "{deviations:?}");
+        assert!(deviations.iter().all(|deviation| deviation.error > 0.0));
+    }
+
+    #[test]
+    fn derivatives_are_compared_where_they_vanish_and_beside_the_kink_of_w_d() {
+        let arm = planar();
+        for elbow in [0.0, 1e-9, 0.3 * STEP, 20.0 * STEP, KINK] {
+            let errors = errors(&arm, &Vector2::new(0.7, elbow));
+            assert!(
+                errors.iter().all(|error| *error < 1e-6),
+                "{elbow}: {errors:?}"
+            );
+        }
+    }
+}

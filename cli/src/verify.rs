@@ -15,7 +15,7 @@ use crate::{Verdict, console};
 
 /// Compare an arm's emitted program with the generic path and with finite differences
 #[derive(Args)]
-#[command(after_help = "Example:\n  ulna verify arms/ssrms.toml --samples 100")]
+#[command(after_help = "Example:\n  ulna verify arms/ssrms.toml --samples 10")]
 pub(crate) struct Arguments {
     /// The arm's table (TOML)
     table: PathBuf,

@@ -23,12 +23,6 @@ fn emitted_code_is_compared_method_by_method() {
 }
 
 #[test]
-fn nothing_is_called_wrong_near_singular_configurations() {
-    let run = ulna(&["verify", "arms/planar_2r.toml", "--samples", "5000"]);
-    run.code(0).stderr("");
-}
-
-#[test]
 fn samples_are_a_positive_number() {
     for samples in ["0", "-1", "many"] {
         ulna(&["verify", "arms/planar_2r.toml", "--samples", samples])
