@@ -1,10 +1,12 @@
-//! A control cycle allocates nothing, whatever the law, the projector, the backend and the outcome.
+//! A control cycle allocates nothing, whatever the law, the projector, the backend and the outcome; nor does the truth model.
 
 use ulna::compensation::FreeTorque;
 use ulna::failure::impact_torque;
 use ulna::nalgebra::{SVector, Vector6};
+use ulna::simulation::{Brake, Control, Feedback, Resolution, Simulation};
 use ulna::{
-    Arm, Compensation, Controller, JointState, LockedJoints, Model, Projector, SerialChain, Status,
+    Arm, Compensation, Controller, Failure, JointLimits, JointState, LockedJoints, Model,
+    Projector, SerialChain, Status, Trapezoid,
 };
 use ulna_generated::Ssrms;
 
@@ -96,4 +98,33 @@ fn a_control_cycle_allocates_nothing_on_the_generic_path() {
         std::hint::black_box(impact_torque(&chain, &state, locked, &Vector6::zeros()));
     });
     assert_eq!(count, 0);
+}
+
+#[test]
+fn a_simulated_failure_allocates_nothing() {
+    let start = SVector::from([0.7, -0.6, 1.3, -2.0, 0.3, 3.4, 0.0]);
+    let goal = start + SVector::repeat(0.5);
+    let motion = Trapezoid::new(start, goal, 4.0, 1.0, &JointLimits::none()).unwrap();
+    let failure = Failure {
+        joints: LockedJoints::new(&[1]).unwrap(),
+        time: 2.0,
+    };
+    let mut samples = 0;
+    for control in [Control::Continuous, Control::Every(2e-3)] {
+        let simulation = Simulation {
+            plant: &Ssrms,
+            controller: Controller::new(&Ssrms, Compensation::PerJoint(SVector::repeat(1e6))),
+            trajectory: &motion,
+            wrench: |_| Vector6::zeros(),
+            feedback: Feedback::critical(5.0),
+            control,
+            brake: Brake::new(failure, 0.01),
+        };
+        let count = allocations(|| {
+            let outcome = simulation.run(1.9..2.1, &Resolution::default(), |_| samples += 1);
+            assert!(outcome.is_ok_and(|outcome| outcome.impact.is_some()));
+        });
+        assert_eq!(count, 0);
+    }
+    assert!(samples > 96);
 }

@@ -12,6 +12,34 @@
 //!
 //! Beside the motion, work and impulses are integrated; [`Balance`] says how well energy and momentum account for it.
 //! Motors follow their commands at once.
+//!
+//! ```
+//! use ulna::nalgebra::Vector6;
+//! use ulna::simulation::{Brake, Control, Feedback, Resolution, Simulation};
+//! use ulna::{Arm, Compensation, Controller, Failure, Trajectory};
+//!
+//! /// What a joint's brake gives, N·m·s, beside what the ideal lock would ask of it.
+//! fn brake_impulse<const N: usize>(
+//!     arm: &impl Arm<N>,
+//!     trajectory: &impl Trajectory<N>,
+//!     failure: Failure<N>,
+//! ) -> Option<[f64; 2]> {
+//!     let joint = failure.joints.iter().next()?;
+//!     let simulation = Simulation {
+//!         plant: arm,
+//!         controller: Controller::new(arm, Compensation::none()),
+//!         trajectory,
+//!         wrench: |_| Vector6::zeros(),
+//!         feedback: Feedback::critical(5.0),
+//!         control: Control::Every(1e-3),
+//!         brake: Brake::new(failure, 0.1),
+//!     };
+//!     let span = 0.0..trajectory.duration();
+//!     let outcome = simulation.run(span, &Resolution::default(), |_| ()).ok()?;
+//!     let impact = outcome.impact?;
+//!     Some([impact.brake_impulse[joint], impact.ideal.brake[joint]])
+//! }
+//! ```
 
 mod brake;
 mod dormand_prince;
@@ -104,10 +132,10 @@ pub struct Resolution {
 }
 
 impl Default for Resolution {
-    /// 1e-11, 10 ms and a hundred thousand steps.
+    /// 1e-10, 10 ms and a hundred thousand steps.
     fn default() -> Self {
         Self {
-            tolerance: 1e-11,
+            tolerance: 1e-10,
             sample_period: 0.01,
             steps: 100_000,
         }
