@@ -8,6 +8,8 @@ pub mod batch;
 pub mod compensation;
 #[cfg(feature = "table")]
 pub mod diagnostics;
+#[cfg(all(feature = "table", feature = "optimal"))]
+pub mod experiment;
 pub mod failure;
 pub mod generic;
 pub mod model;

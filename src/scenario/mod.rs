@@ -67,6 +67,31 @@ pub struct Experiment {
     pub rated_torque: Option<Vec<f64>>,
     /// Figures from elsewhere, to stand beside ours.
     pub references: Vec<Reference>,
+    /// What to draw of it.
+    pub figures: Vec<Figure>,
+}
+
+/// A figure of an experiment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// What its files are called; `snake_case`.
+    pub name: String,
+    /// What it shows.
+    pub kind: FigureKind,
+}
+
+/// What a [`Figure`] shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FigureKind {
+    /// Torques over time, without and with suppression.
+    Torque {
+        /// Of these joints, counted from 0.
+        joints: Vec<usize>,
+        /// With the failure at this one of the failure times, s.
+        time: f64,
+    },
+    /// The impact joint by joint, before and after, at every failure time, and the tool force over time if it varies.
+    Impact,
 }
 
 /// Somebody else's figures for a failure time.

@@ -82,6 +82,7 @@ pub(super) struct ExperimentTable {
     pub(super) moment: Option<Located<Vec<Option<Numbers>>>>,
     pub(super) rated_torque: Option<RatedTable>,
     pub(super) references: Vec<ReferenceTable>,
+    pub(super) figures: Vec<FigureTable>,
 }
 
 /// `rated_torque` of `[[experiment]]`
@@ -104,6 +105,21 @@ pub(super) struct ReferenceTable {
     pub(super) before: List,
     pub(super) after: List,
     pub(super) coefficients: List,
+}
+
+/// `[[experiment.figure]]`
+pub(super) struct FigureTable {
+    pub(super) name: Option<Located<String>>,
+    pub(super) kind: Option<FigureWord>,
+    pub(super) joints: List,
+    pub(super) time: Number,
+}
+
+/// What a figure shows.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum FigureWord {
+    Torque,
+    Impact,
 }
 
 /// `[campaign]`; all keys are optional.
@@ -265,6 +281,20 @@ fn read_experiment(fields: &mut Fields<'_>, owner: &str) -> ExperimentTable {
                 value.table(&owner, read_reference)
             })
             .collect(),
+        figures: fields
+            .optional(
+                "figure",
+                "[[experiment.figure]]` with name and kind below it",
+            )
+            .and_then(|value| value.items("a list, each under its own [[experiment.figure]]"))
+            .unwrap_or_default()
+            .into_iter()
+            .enumerate()
+            .filter_map(|(i, value)| {
+                let owner = format!("figure {} of {owner}", i + 1);
+                value.table(&owner, read_figure)
+            })
+            .collect(),
     }
 }
 
@@ -306,6 +336,33 @@ fn read_reference(fields: &mut Fields<'_>) -> ReferenceTable {
         before: list(fields.optional("before", "before = [30.18, 66.72]")),
         after: list(fields.optional("after", "after = [0.15, 0.14]")),
         coefficients: list(fields.optional("coefficients", "coefficients = [1e7, -1e7]")),
+    }
+}
+
+fn read_figure(fields: &mut Fields<'_>) -> FigureTable {
+    let kinds = [
+        ("torque", FigureWord::Torque),
+        ("impact", FigureWord::Impact),
+    ];
+    let name = string(fields.required("name", "name = \"my_figure\""));
+    let kind = fields
+        .required("kind", "kind = \"torque\"` or `kind = \"impact\"")
+        .and_then(|kind| kind.choice(&kinds))
+        .map(|kind| kind.value);
+    let of_torque = kind != Some(FigureWord::Impact);
+    FigureTable {
+        name,
+        kind,
+        joints: list(
+            of_torque
+                .then(|| fields.required("joints", "joints = [1, 3]"))
+                .flatten(),
+        ),
+        time: number(
+            of_torque
+                .then(|| fields.required("time", "time = 10.0"))
+                .flatten(),
+        ),
     }
 }
 

@@ -2,8 +2,10 @@
 
 use super::Reader;
 use crate::Joint;
-use crate::scenario::read::{ExperimentTable, List, Numbers, RatedTable, ReferenceTable};
-use crate::scenario::{Experiment, Reference, ToolForce};
+use crate::scenario::read::{
+    ExperimentTable, FigureTable, FigureWord, List, Numbers, RatedTable, ReferenceTable,
+};
+use crate::scenario::{Experiment, Figure, FigureKind, Reference, ToolForce};
 use crate::toml_reader::{Bound, Located};
 
 const FORCE: Bound = Bound {
@@ -31,11 +33,17 @@ const FAILURE_TIME: Bound = Bound {
 const MAX_COEFFICIENTS: usize = 8;
 
 impl Reader<'_> {
-    pub(super) fn experiments(&self, tables: &[ExperimentTable]) -> Option<Vec<Experiment>> {
+    /// The experiments; each section and each figure's name may be there once, and `times` are the failure times.
+    pub(super) fn experiments(
+        &self,
+        tables: &[ExperimentTable],
+        times: Option<&[f64]>,
+    ) -> Option<Vec<Experiment>> {
         let mut sections: Vec<&str> = Vec::new();
+        let mut names: Vec<&str> = Vec::new();
         let mut read = Vec::new();
         for table in tables {
-            let mut experiment = self.experiment(table);
+            let mut experiment = self.experiment(table, times);
             if let Some(section) = &table.section {
                 if sections.contains(&section.value.as_str()) {
                     let message = format!("section {:?} is there twice", section.value);
@@ -49,12 +57,29 @@ impl Reader<'_> {
                 }
                 sections.push(&section.value);
             }
+            for name in table
+                .figures
+                .iter()
+                .filter_map(|figure| figure.name.as_ref())
+            {
+                if names.contains(&name.value.as_str()) {
+                    let message = format!("a figure is called {:?} already", name.value);
+                    self.refuse(
+                        &name.span,
+                        message,
+                        "repeated",
+                        "give each figure its own name",
+                    );
+                    experiment = None;
+                }
+                names.push(&name.value);
+            }
             read.push(experiment);
         }
         read.into_iter().collect()
     }
 
-    fn experiment(&self, table: &ExperimentTable) -> Option<Experiment> {
+    fn experiment(&self, table: &ExperimentTable, times: Option<&[f64]>) -> Option<Experiment> {
         let none: [Vec<f64>; 3] = Default::default();
         let force = self.polynomials(&table.force);
         let moment = match &table.moment {
@@ -81,6 +106,8 @@ impl Reader<'_> {
             .iter()
             .map(|reference| self.reference(reference))
             .collect();
+        let figures = table.figures.iter();
+        let figures: Vec<_> = figures.map(|figure| self.figure(figure, times)).collect();
         let [fx, fy, fz] = force?;
         let [nx, ny, nz] = moment?;
         Some(Experiment {
@@ -91,6 +118,46 @@ impl Reader<'_> {
             },
             rated_torque: rated_torque??,
             references: references.into_iter().collect::<Option<_>>()?,
+            figures: figures.into_iter().collect::<Option<_>>()?,
+        })
+    }
+
+    fn figure(&self, table: &FigureTable, times: Option<&[f64]>) -> Option<Figure> {
+        let name = table.name.as_ref().filter(|name| {
+            // It becomes the name of files.
+            let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+            let sound = name.value.chars().all(plain) && (1..=64).contains(&name.value.len());
+            if !sound {
+                let message = format!("{} cannot name a file", name.name);
+                self.refuse(
+                    &name.span,
+                    message,
+                    "",
+                    "write up to 64 of a to z, 0 to 9 and _",
+                );
+            }
+            sound
+        });
+        let joints = table.joints.as_ref();
+        let joints = joints.and_then(|joints| self.joint_numbers(joints));
+        let time = table.time.as_ref().filter(|time| {
+            let planned = times.is_none_or(|times| times.contains(&time.value));
+            if !planned {
+                let message = format!("{} is no failure time", time.name);
+                self.refuse(&time.span, message, "", "write one of `times` of [failure]");
+            }
+            planned
+        });
+        let kind = match table.kind? {
+            FigureWord::Impact => FigureKind::Impact,
+            FigureWord::Torque => FigureKind::Torque {
+                joints: joints?,
+                time: time?.value,
+            },
+        };
+        Some(Figure {
+            name: name?.value.clone(),
+            kind,
         })
     }
 

@@ -77,10 +77,11 @@ impl ScenarioTable {
         let failure = failure.and_then(|table| reader.failure(table, duration));
         let cycle = reader.cycle(&self.cycle, duration);
         let search = self.search.as_ref().and_then(|table| reader.search(table));
+        let times = failure.as_ref().map(|(_, times)| times.as_slice());
         let experiments = self
             .experiments
             .as_ref()
-            .and_then(|tables| reader.experiments(tables));
+            .and_then(|tables| reader.experiments(tables, times));
         let campaign = reader.campaign(&self.campaign);
         let (failed_joints, failure_times) = failure?;
         Some(Scenario {
