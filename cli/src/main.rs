@@ -2,6 +2,7 @@
 //!
 //! Exit codes: 0, or 1 for what is wrong with the input or with what was checked, or 2 for a wrong command line.
 
+mod arms;
 mod check;
 mod console;
 mod cost;
@@ -16,6 +17,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use ulna::TableErrors;
+use ulna::scenario::ScenarioErrors;
 
 /// A table of a robot arm in, unrolled Rust dynamics out
 ///
@@ -70,9 +72,12 @@ fn main() -> ExitCode {
         // Whoever reads stdout has seen enough, as in `ulna cost TABLE | head -3`.
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            match error.downcast_ref::<TableErrors>() {
-                Some(errors) => console::report(errors),
-                None => console::error(&format!("{error:#}")),
+            if let Some(errors) = error.downcast_ref::<TableErrors>() {
+                console::report(errors);
+            } else if let Some(errors) = error.downcast_ref::<ScenarioErrors>() {
+                errors.texts().iter().for_each(console::report);
+            } else {
+                console::error(&format!("{error:#}"));
             }
             ExitCode::FAILURE
         }

@@ -1,0 +1,52 @@
+//! From the arm of a scenario, known at run time, to a type.
+
+use anyhow::bail;
+use ulna::scenario::{KnownArm, ScenarioArm};
+use ulna::{Arm, SerialChain};
+
+use crate::joints::{ForChain, with_chain};
+
+/// What to do with an arm, whatever its backend and its number of joints.
+pub(crate) trait ForArm {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn run<A: Arm<N> + Sync, const N: usize>(self, arm: &A) -> Self::Output;
+}
+
+macro_rules! generated_arms {
+    ($(($Type:ident, $name:ident, $joints:literal))+) => {
+        /// The arms that were generated when the program was compiled.
+        pub(crate) const GENERATED: &[KnownArm] = &[$(KnownArm {
+            name: stringify!($name),
+            joints: &ulna_generated::$Type::CHAIN.joints,
+        }),+];
+
+        fn with_generated<W: ForArm>(name: &str, work: W) -> anyhow::Result<W::Output> {
+            match name {
+                $(stringify!($name) => Ok(work.run(&ulna_generated::$Type)),)+
+                _ => bail!("no arm `{name}` was compiled into the program"),
+            }
+        }
+    };
+}
+ulna_generated::for_each_arm!(generated_arms);
+
+/// Runs `work` on generated code where there is some, and on the generic path otherwise.
+///
+/// # Errors
+/// When the arm has more joints than the program was compiled for.
+pub(crate) fn with_arm<W: ForArm>(arm: &ScenarioArm, work: W) -> anyhow::Result<W::Output> {
+    struct OnChain<W>(W);
+    impl<W: ForArm> ForChain for OnChain<W> {
+        type Output = W::Output;
+        fn run<const N: usize>(self, chain: &SerialChain<N>) -> W::Output {
+            self.0.run(chain)
+        }
+    }
+    match arm {
+        ScenarioArm::Known(known) => with_generated(known.name, work),
+        ScenarioArm::Table { model, .. } => with_chain(model, OnChain(work)),
+    }
+}
