@@ -4,5 +4,6 @@ mod check;
 mod cost;
 mod generate;
 mod help;
+mod reproduce;
 mod support;
 mod verify;
