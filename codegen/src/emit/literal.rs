@@ -88,8 +88,10 @@ mod tests {
             text(std::f64::consts::FRAC_1_SQRT_2),
             "::core::f64::consts::FRAC_1_SQRT_2"
         );
-        assert_eq!(text(3.14159), "3.14159e0");
-        assert_eq!(text(0.7071), "0.7071e0");
+        for measured in ["3.14159", "0.7071", "2.718"] {
+            let value: f64 = measured.parse().unwrap();
+            assert_eq!(text(value), format!("{measured}e0"));
+        }
         assert_eq!(text(3.5), "3.5");
     }
 }
