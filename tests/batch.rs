@@ -2,8 +2,9 @@
 
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 use ulna::proof::{State, states};
-use ulna::{Arm, ArmBatch, SerialChain};
+use ulna::{Arm, ArmBatch, SerialChain, Unrolled as _};
 use ulna_generated::{Oblique6, Planar2r, Ssrms};
+use wide::{f32x8, f64x8};
 
 /// None, fewer than the lanes, as many, and some over.
 const LENGTHS: [usize; 7] = [0, 1, 3, 4, 8, 11, 33];
@@ -176,6 +177,29 @@ fn an_arm_with_a_prismatic_joint() {
         mass_matrix(q),
         zero
     );
+}
+
+/// A kernel on other scalars: lanes of `wide`, and single precision.
+#[test]
+fn kernels_run_on_every_scalar() {
+    let q = proof_configuration();
+    let exact = Ssrms::mass_matrix_kernel::<f64>(&q);
+    let lanes = Ssrms::mass_matrix_kernel::<f64x8>(&q.map(f64x8::splat));
+    let single = Ssrms::mass_matrix_kernel::<f32>(&q.map(|x| x as f32));
+    let single_lanes = Ssrms::mass_matrix_kernel::<f32x8>(&q.map(|x| f32x8::splat(x as f32)));
+    for (i, j) in (0..7).flat_map(|i| (0..7).map(move |j| (i, j))) {
+        assert_eq!(lanes[i][j].to_array(), [exact[i][j]; 8]);
+        let allowed = 1e-5 * exact[0][0];
+        assert!((f64::from(single[i][j]) - exact[i][j]).abs() < allowed);
+        for lane in single_lanes[i][j].to_array() {
+            assert!((f64::from(lane) - exact[i][j]).abs() < allowed);
+        }
+    }
+}
+
+fn proof_configuration() -> [f64; 7] {
+    let state = states(&Ssrms::CHAIN).next().expect("states without end");
+    state.q.into()
 }
 
 #[test]
