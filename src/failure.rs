@@ -33,7 +33,6 @@ impl<const N: usize> LockedJoints<N> {
 
     /// The set of `joints`, counted from 0; `None` if one of them is not below N.
     pub const fn new(joints: &[usize]) -> Option<Self> {
-        const { assert!(N <= 64, "LockedJoints holds at most 64 joints") };
         let mut bits = 0;
         let mut i = 0;
         while i < joints.len() {
@@ -48,6 +47,7 @@ impl<const N: usize> LockedJoints<N> {
 
     /// Whether `joint`, counted from 0, is locked.
     pub const fn contains(self, joint: usize) -> bool {
+        const { assert!(N <= 64, "LockedJoints holds at most 64 joints") };
         joint < N && self.0 & (1 << joint) != 0
     }
 

@@ -54,10 +54,11 @@ impl<const N: usize> ToolPath<N> {
         if !line.displacement.iter().all(|x| x.is_finite()) {
             return Err(TrajectoryError::NotFinite("displacement"));
         }
-        if !(line.knot_period.is_finite() && line.knot_period > 0.0) {
-            return Err(TrajectoryError::NotFinite("knot period"));
-        }
         let profile = TrapezoidProfile::new(line.duration, line.blend)?;
+        let knots = line.duration / line.knot_period;
+        if !(knots > 0.0 && knots <= 1e6) {
+            return Err(TrajectoryError::KnotPeriod(line.knot_period));
+        }
         let (blend, cruise) = (line.blend, line.duration - 2.0 * line.blend);
         let acceleration = profile.acceleration();
         let resolver = Resolver {

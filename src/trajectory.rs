@@ -112,6 +112,9 @@ pub enum TrajectoryError {
     /// A duration that is not above zero.
     #[error("the duration must be above 0 s, not {0} s")]
     Duration(f64),
+    /// A time between two knots that is not above zero, or below a millionth of the motion.
+    #[error("the knot period must be above 0 s and at least a millionth of the motion, not {0} s")]
+    KnotPeriod(f64),
     /// A blend that does not fit into the motion twice.
     #[error(
         "the blend must last more than 0 s and at most half of the {duration} s, not {blend} s"
@@ -241,11 +244,15 @@ impl<const N: usize> Trapezoid<N> {
         }
         let profile = TrapezoidProfile::new(duration, blend)?;
         let travel = goal - start;
-        limits.admit(
-            &(travel * profile.cruise_speed()),
-            &(travel * profile.acceleration()),
-            blend,
-        )?;
+        let rates = JointState {
+            q: travel,
+            qd: travel * profile.cruise_speed(),
+            qdd: travel * profile.acceleration(),
+        };
+        if !rates.is_finite() {
+            return Err(TrajectoryError::NotFinite("rate between start and goal"));
+        }
+        limits.admit(&rates.qd, &rates.qdd, blend)?;
         Ok(Self {
             start,
             goal,

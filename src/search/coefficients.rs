@@ -16,6 +16,10 @@ pub enum CoefficientLaw {
     /// Eq. 16. What counts is each joint's own step, the locked one's too.
     PerJoint,
     /// Eq. 20. What counts is the norm of the steps of the healthy joints: they share the coefficients.
+    ///
+    /// They do not share much. With J' of the locked arm, the null space of J without the locked joint is that of J',
+    /// so that P' and P differ, on the healthy joints, by one direction for each locked joint:
+    /// one locked joint leaves all coefficients together a single direction of the step to take away.
     Projected,
 }
 
@@ -234,6 +238,13 @@ impl<const N: usize> Stepwise<N> {
                 name: "step",
                 range: "above 0",
                 value: self.step,
+            });
+        }
+        if let Some(value) = self.start.iter().find(|k| !k.is_finite()) {
+            return Err(SearchError::Argument {
+                name: "start value",
+                range: "finite",
+                value: *value,
             });
         }
         let maps = Maps::new(operation, law);

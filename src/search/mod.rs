@@ -89,14 +89,6 @@ pub enum SearchError {
         /// The motion's, s.
         duration: f64,
     },
-    /// A sample period that is not above 0, or a control period below 0.
-    #[error("the {name} must be a time of at least 0 s, the sample period more, not {value} s")]
-    Period {
-        /// Which.
-        name: &'static str,
-        /// What it was, s.
-        value: f64,
-    },
     /// The motion or the wrench leads to torques that are no finite numbers.
     #[error("the planned torque at {time:.3} s is not finite")]
     NotFinite {
@@ -111,7 +103,7 @@ pub enum SearchError {
         /// When it does, s.
         time: f64,
     },
-    /// The search's own arguments make no search.
+    /// An argument that makes no operation or no search.
     #[error("the {name} must be {range}, not {value}")]
     Argument {
         /// Which.
@@ -197,17 +189,18 @@ impl<const N: usize> Operation<N> {
         options: &OperationOptions<N>,
     ) -> Result<Self, SearchError> {
         let (duration, after) = (trajectory.duration(), failure.time + options.control_period);
-        let positive = options.sample_period.is_finite() && options.sample_period > 0.0;
-        if !positive {
-            return Err(SearchError::Period {
+        let samples = duration / options.sample_period;
+        if !(samples > 0.0 && samples <= 1e6) {
+            return Err(SearchError::Argument {
                 name: "sample period",
+                range: "above 0 s and at least a millionth of the motion",
                 value: options.sample_period,
             });
         }
-        let not_negative = options.control_period.is_finite() && options.control_period >= 0.0;
-        if !not_negative {
-            return Err(SearchError::Period {
+        if !(options.control_period >= 0.0 && options.control_period.is_finite()) {
+            return Err(SearchError::Argument {
                 name: "control period",
+                range: "a time of at least 0 s",
                 value: options.control_period,
             });
         }

@@ -3,5 +3,8 @@
 mod arms;
 mod compensation;
 mod failure;
+mod limits;
+mod optimal;
 mod search;
+mod singular;
 mod trajectory;

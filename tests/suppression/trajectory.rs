@@ -59,6 +59,8 @@ fn trapezoid_refuses_what_cannot_be_flown() {
         Trapezoid::new(start, bad, 2.0, 0.5, &free),
         Err(TrajectoryError::NotFinite("goal"))
     );
+    let (far, away) = (SVector::repeat(1e308), SVector::repeat(-1e308));
+    assert!(Trapezoid::<2>::new(far, away, 2.0, 0.5, &free).is_err());
     let slow = JointLimits {
         velocity: SVector::from([1.0, 2.0]),
         ..free
@@ -163,9 +165,12 @@ fn tool_path_refuses_singular_poses_and_fast_joints() {
         matches!(refusal, TrajectoryError::Velocity { .. }),
         "{refusal}"
     );
-    let no_knots = StraightLine {
-        knot_period: 0.0,
-        ..line([0.1, 0.0, 0.0])
-    };
-    assert!(ToolPath::straight(&arm, &start, &no_knots, &JointLimits::none()).is_err());
+    for knot_period in [0.0, -1.0, 1e-300, f64::NAN, f64::INFINITY] {
+        let line = StraightLine {
+            knot_period,
+            ..line([0.1, 0.0, 0.0])
+        };
+        let refusal = ToolPath::straight(&arm, &start, &line, &JointLimits::none());
+        assert!(matches!(refusal, Err(TrajectoryError::KnotPeriod(_))));
+    }
 }
