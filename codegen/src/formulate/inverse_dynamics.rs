@@ -1,7 +1,7 @@
 //! Inverse dynamics by Newton and Euler's recursion (Luh, Walker and Paul 1980; Craig, chapter 6), on the base
 //! parameters, about the joints' origins, group by group.
 //!
-//! The motion of a link enters through Λ = [α]× + [ω]×[ω]×, which takes a fixed vector of the link to the
+//! The motion of a link enters through `Λ = [α]× + [ω]×[ω]×`, which takes a fixed vector of the link to the
 //! acceleration that its rotation gives it (Khalil and Kleinfinger 1987).
 
 use ulna::JointKind;
