@@ -3,6 +3,7 @@
 //! `cargo bench --bench cycle`, then `benches/ratios.py` for the shares.
 
 use std::hint::black_box;
+use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use ulna::nalgebra::{SVector, Vector6};
@@ -64,5 +65,12 @@ fn cycle(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, cycle);
+fn brief() -> Criterion {
+    Criterion::default()
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2))
+        .without_plots()
+}
+
+criterion_group! { name = benches; config = brief(); targets = cycle }
 criterion_main!(benches);
