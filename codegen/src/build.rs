@@ -15,12 +15,12 @@ pub enum Error {
     /// Tables have errors, each told with its file and line.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Tables(Vec<TableErrors>),
-    /// Two tables name their arm alike, so that one file would replace the other.
-    #[error("{second} names its arm `{name}`, as {first} does: rename one of them", first = .first.display(), second = .second.display())]
-    SameName {
-        /// The arm's name.
+    /// Two arms would become the same type: the second would hide or replace the first.
+    #[error("{second} would become the type `{name}`, as {first} does: rename one of the arms", first = .first.display(), second = .second.display())]
+    SameType {
+        /// The type's name.
         name: String,
-        /// The table that had it first.
+        /// The table that has it first.
         first: PathBuf,
         /// The table that repeats it.
         second: PathBuf,
@@ -171,14 +171,35 @@ fn load_all(tables: &[impl AsRef<Path>]) -> Result<Vec<(&Path, Model)>, Error> {
     for (i, (second, model)) in models.iter().enumerate() {
         if let Some((first, _)) = models[..i]
             .iter()
-            .find(|(_, other)| other.name == model.name)
+            .find(|(_, other)| other.type_name() == model.type_name())
         {
-            return Err(Error::SameName {
-                name: model.name.clone(),
+            return Err(Error::SameType {
+                name: model.type_name(),
                 first: first.to_path_buf(),
                 second: second.to_path_buf(),
             });
         }
     }
     Ok(models)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arms_of_one_type_are_refused() {
+        let table = "../arms/planar_2r.toml";
+        let error = load_all(&[table, "../arms/ssrms.toml", table]).unwrap_err();
+        assert!(matches!(&error, Error::SameType { name, .. } if name == "Planar2r"));
+        assert!(error.to_string().contains("rename one of the arms"));
+    }
+
+    #[test]
+    fn every_bad_table_is_told() {
+        let Error::Tables(errors) = load_all(&["no_such.toml", "../arms"]).unwrap_err() else {
+            panic!("absent tables are another error");
+        };
+        assert_eq!(errors.len(), 2);
+    }
 }

@@ -10,8 +10,12 @@ use syn::{LitStr, parse_macro_input};
 ///
 /// The path is relative to the folder of the crate's `Cargo.toml`. The crate is rebuilt when the table changes.
 ///
-/// ```ignore
-/// ulna_macros::arm!("arms/ssrms.toml"); // pub struct Ssrms, which implements ulna::Arm<7>
+/// ```
+/// use ulna::{Arm, nalgebra::Vector2};
+///
+/// ulna_macros::arm!("../arms/planar_2r.toml"); // pub struct Planar2r, which implements Arm<2>
+///
+/// assert!(Planar2r.dynamic_manipulability(&Vector2::new(0.3, 1.2)) > 0.0);
 /// ```
 ///
 /// Every error of the table is reported at the path, with its line in the table.

@@ -52,6 +52,8 @@ fn fault(name: &str) -> Option<&'static str> {
         Some("is a keyword of Rust")
     } else if listed(DEVICES, name) {
         Some("is a device on Windows, not a file name")
+    } else if name == "arms" {
+        Some("is the name of the generated file that lists all arms")
     } else if name.len() == 1 {
         Some("is one letter, which would clash with type parameters")
     } else if listed(TAKEN_TYPES, &type_name(name)) {
@@ -121,6 +123,7 @@ mod tests {
             ("arm", "arm_arm"),
             ("task_rows", "arm_task_rows"),
             ("nul", "arm_nul"),
+            ("arms", "arm_arms"),
             ("\u{e9}arm2", "arm2"),
             ("\u{3b1}", "my_arm"),
             ("x; fn main() {}", "x_fn_main"),
