@@ -1,0 +1,1 @@
+"""ulna beside CasADi and Pinocchio: see ../README.md."""

@@ -1,0 +1,184 @@
+//! ulna's methods behind C functions, so that one timer can call every peer in the same way.
+
+use std::ffi::{CStr, c_char};
+use std::mem::offset_of;
+use std::slice;
+
+use ulna::nalgebra::{SMatrix, SVector};
+use ulna::{Arm, ArmBatch};
+
+/// Reads q, q̇ and q̈ (or τ) one after the other, and writes its results one after the other, matrices by columns.
+type Kernel = unsafe extern "C" fn(*const f64, *mut f64);
+
+/// The three arguments that a kernel reads.
+///
+/// # Safety
+/// `x` points to `3 * N` numbers.
+unsafe fn arguments<'a, const N: usize>(x: *const f64) -> &'a [SVector<f64, N>; 3] {
+    // SAFETY: vectors of fixed size are their components, contiguous.
+    unsafe { &*x.cast() }
+}
+
+/// Writes a value made of numbers alone.
+///
+/// # Safety
+/// `out` has room for it.
+unsafe fn write<T>(value: T, out: *mut f64) {
+    // SAFETY: by contract; whatever is made of numbers is aligned like a number.
+    unsafe { out.cast::<T>().write(value) }
+}
+
+/// A kernel that writes one value: numbers alone, contiguous.
+macro_rules! kernel {
+    ($n:literal, |$q:ident, $qd:ident, $qdd:ident| $value:expr) => {{
+        unsafe extern "C" fn kernel(x: *const f64, out: *mut f64) {
+            // SAFETY: the caller passes 3N arguments and room for the results.
+            let [$q, $qd, $qdd] = unsafe { arguments::<$n>(x) };
+            let value = $value;
+            // SAFETY: as above.
+            unsafe { write(value, out) }
+        }
+        Some(kernel as Kernel)
+    }};
+}
+
+/// The kernel of `$quantity` of the arm `$arm`.
+macro_rules! quantity {
+    ($arm:expr, $n:literal, $quantity:expr) => {
+        match $quantity {
+            b"geometric_jacobian" => kernel!($n, |q, _qd, _qdd| $arm.geometric_jacobian(q)),
+            b"mass_matrix" => kernel!($n, |q, _qd, _qdd| $arm.mass_matrix(q)),
+            b"mass_matrix_derivatives" => {
+                kernel!($n, |q, _qd, _qdd| $arm.mass_matrix_derivatives(q))
+            }
+            b"dynamic_manipulability_gradient" => kernel!($n, |q, _qd, _qdd| {
+                let (value, gradient) = $arm.dynamic_manipulability_gradient(q);
+                Gradient { value, gradient }
+            }),
+            b"inverse_dynamics" => kernel!($n, |q, qd, qdd| $arm.inverse_dynamics(q, qd, qdd)),
+            b"forward_dynamics" => kernel!($n, |q, qd, tau| $arm.forward_dynamics(q, qd, tau)),
+            _ => None,
+        }
+    };
+}
+
+/// Reads `count` vectors q, then as many of q̇, then of q̈ (or τ), and writes as many results.
+type BatchKernel = unsafe extern "C" fn(*const f64, usize, *mut f64);
+
+/// A batch kernel whose results are of type `$result`: numbers alone, contiguous.
+macro_rules! batch {
+    ($arm:expr, $n:literal, $result:ty, $method:ident($($argument:tt),+)) => {{
+        unsafe extern "C" fn kernel(x: *const f64, count: usize, out: *mut f64) {
+            let x = x.cast::<SVector<f64, $n>>();
+            // SAFETY: the caller passes 3 * count vectors of N numbers, and room for `count` results.
+            unsafe {
+                let vectors = |i: usize| slice::from_raw_parts(x.add(i * count), count);
+                let out = slice::from_raw_parts_mut(out.cast::<$result>(), count);
+                $arm.$method($(vectors($argument)),+, out);
+            }
+        }
+        Some(kernel as BatchKernel)
+    }};
+}
+
+/// The batch kernel of `$quantity` of the arm `$arm`.
+macro_rules! batch_quantity {
+    ($arm:expr, $n:literal, $quantity:expr) => {
+        match $quantity {
+            b"geometric_jacobian" => {
+                batch!($arm, $n, SMatrix<f64, 6, $n>, geometric_jacobian_batch(0))
+            }
+            b"mass_matrix" => batch!($arm, $n, SMatrix<f64, $n, $n>, mass_matrix_batch(0)),
+            b"mass_matrix_derivatives" => {
+                batch!($arm, $n, [SMatrix<f64, $n, $n>; $n], mass_matrix_derivatives_batch(0))
+            }
+            b"dynamic_manipulability_gradient" => {
+                // Written as it is; the value comes first.
+                const {
+                    assert!(offset_of!((f64, SVector<f64, $n>), 0) == 0);
+                }
+                batch!($arm, $n, (f64, SVector<f64, $n>), dynamic_manipulability_gradient_batch(0))
+            }
+            b"inverse_dynamics" => {
+                batch!($arm, $n, SVector<f64, $n>, inverse_dynamics_batch(0, 1, 2))
+            }
+            b"forward_dynamics" => {
+                batch!($arm, $n, SVector<f64, $n>, forward_dynamics_batch(0, 1, 2))
+            }
+            _ => None,
+        }
+    };
+}
+
+/// w_D and ∇w_D in this order.
+#[repr(C)]
+struct Gradient<const N: usize> {
+    value: f64,
+    gradient: SVector<f64, N>,
+}
+
+macro_rules! finders {
+    ($(($Arm:ident, $name:ident, $n:literal))*) => {
+        fn generated(arm: &[u8], quantity: &[u8]) -> Option<Kernel> {
+            $(if arm == stringify!($name).as_bytes() {
+                return quantity!(ulna_generated::$Arm, $n, quantity);
+            })*
+            None
+        }
+
+        fn batched(arm: &[u8], quantity: &[u8]) -> Option<BatchKernel> {
+            $(if arm == stringify!($name).as_bytes() {
+                return batch_quantity!(ulna_generated::$Arm, $n, quantity);
+            })*
+            None
+        }
+
+        fn generic(arm: &[u8], quantity: &[u8]) -> Option<Kernel> {
+            $(if arm == stringify!($name).as_bytes() {
+                return quantity!(ulna_generated::$Arm::CHAIN, $n, quantity);
+            })*
+            None
+        }
+    };
+}
+
+ulna_generated::for_each_arm!(finders);
+
+/// The generated kernel of a quantity, or null.
+///
+/// # Safety
+/// Both arguments are C strings.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn kernel(arm: *const c_char, quantity: *const c_char) -> Option<Kernel> {
+    // SAFETY: by contract.
+    let (arm, quantity) = unsafe { (CStr::from_ptr(arm), CStr::from_ptr(quantity)) };
+    generated(arm.to_bytes(), quantity.to_bytes())
+}
+
+/// The batch kernel of a quantity, or null.
+///
+/// # Safety
+/// Both arguments are C strings.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn batch_kernel(
+    arm: *const c_char,
+    quantity: *const c_char,
+) -> Option<BatchKernel> {
+    // SAFETY: by contract.
+    let (arm, quantity) = unsafe { (CStr::from_ptr(arm), CStr::from_ptr(quantity)) };
+    batched(arm.to_bytes(), quantity.to_bytes())
+}
+
+/// The single kernel by the generic path.
+///
+/// # Safety
+/// Both arguments are C strings.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn generic_kernel(
+    arm: *const c_char,
+    quantity: *const c_char,
+) -> Option<Kernel> {
+    // SAFETY: by contract.
+    let (arm, quantity) = unsafe { (CStr::from_ptr(arm), CStr::from_ptr(quantity)) };
+    generic(arm.to_bytes(), quantity.to_bytes())
+}
