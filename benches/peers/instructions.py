@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""Instructions that the generated kernels execute, default flags, counted by callgrind: into instructions.csv, or --check against it.
+
+Steady where times are not. A change of compiler or C library moves them too: write the file anew then, and look at the diff.
+"""
+
+import argparse
+import csv
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+TARGET = ROOT / "target/peers/rust-default"
+COUNTS = HERE / "instructions.csv"
+CALLS = 16  # as in native/count.c
+TOLERANCE = 0.01
+QUANTITIES = [
+    "geometric_jacobian",
+    "mass_matrix",
+    "mass_matrix_derivatives",
+    "dynamic_manipulability_gradient",
+    "inverse_dynamics",
+    "forward_dynamics",
+]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--check", action="store_true", help=f"fail where a count rose by more than {TOLERANCE:.0%}")
+    check = parser.parse_args().check
+    counts = counted()
+    if check:
+        sys.exit(compared(counts))
+    with COUNTS.open("w") as file:
+        csv.writer(file, lineterminator="\n").writerows([["arm", "quantity", "instructions"], *counts])
+
+
+def counted():
+    """Rows of arm, quantity and instructions a call."""
+    cargo = ["cargo", "build", "--quiet", "--release", "--package", "ulna-peers", "--target-dir", TARGET]
+    subprocess.run(cargo, cwd=ROOT, check=True)
+    pairs = [(table.stem, quantity) for table in sorted((ROOT / "arms").glob("*.toml")) for quantity in QUANTITIES]
+    with tempfile.TemporaryDirectory() as folder:
+        driver = Path(folder, "count")
+        subprocess.run(["gcc", "-O2", "-o", driver, HERE / "native/count.c", "-ldl"], check=True)
+        valgrind = ["valgrind", "--quiet", "--tool=callgrind", f"--callgrind-out-file={folder}/out"]
+        words = [word for pair in pairs for word in pair]
+        subprocess.run([*valgrind, driver, TARGET / "release/libulna_peers.so", *words], check=True)
+        rows = []
+        for number, (arm, quantity) in enumerate(pairs, start=1):
+            text = Path(folder, f"out.{number}").read_text()
+            if f"Client Request: {quantity}" not in text:
+                sys.exit(f"callgrind's file {number} is not that of {quantity}")
+            total = int(re.search(r"^(?:summary|totals): (\d+)", text, re.MULTILINE)[1])
+            rows.append((arm, quantity, round(total / CALLS)))
+    return rows
+
+
+def compared(counts):
+    """What differs from the file, printed; 1 if anything rose beyond the tolerance or one of them lacks a kernel."""
+    with COUNTS.open() as file:
+        known = {(row["arm"], row["quantity"]): int(row["instructions"]) for row in csv.DictReader(file)}
+    found = {(arm, quantity): count for arm, quantity, count in counts}
+    bad = 0
+    for key in sorted(known | found):
+        before, after = known.get(key), found.get(key)
+        if before == after:
+            continue
+        rose = before is None or after is None or after > before * (1 + TOLERANCE)
+        bad |= rose
+        print(f"{' '.join(key)}: {before} -> {after}{'  <- look' if rose else ''}")
+    return int(bad)
+
+
+if __name__ == "__main__":
+    main()
