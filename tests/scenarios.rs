@@ -205,6 +205,28 @@ fn times_and_steps() {
 }
 
 #[test]
+fn sections_brakes_and_figures() {
+    let messages = messages(&[
+        ("section = \"5.2\"", "section = \"../5.2\""),
+        ("name = \"figure_4\"", "name = \"Figure 4\""),
+        ("name = \"figure_5\"", "name = \"figure_4\""),
+        ("kind = \"torque\"", "kind = \"torques\""),
+        (
+            "joints = [1, 3]\ntime = 10.0",
+            "joints = [1, 9]\ntime = 11.0",
+        ),
+        (
+            "name = \"figure_7\"\nkind = \"impact\"",
+            "name = \"figure_7\"\nkind = \"impact\"\njoints = [1]",
+        ),
+        ("duration = 0.1 ", "duration = 0.0 "),
+        ("profile = \"constant\"", "profile = \"constnat\""),
+        ("cases = 10_000", "cases = 1.5"),
+    ]);
+    insta::assert_snapshot!(messages);
+}
+
+#[test]
 fn arms() {
     let messages = messages(&[
         ("arm = \"ssrms\"", "arm = \"ssmrs\""),

@@ -22,3 +22,8 @@ pub(crate) fn error(message: &str) {
 pub(crate) fn warning(message: &str) {
     anstream::eprintln!("{WARNING}warning{WARNING:#}: {message}");
 }
+
+/// What has been done.
+pub(crate) fn note(message: &str) {
+    anstream::eprintln!("{message}");
+}

@@ -1,7 +1,7 @@
 //! `ulna generate`: a table in, Rust out.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
@@ -9,6 +9,7 @@ use clap::Args;
 use ulna::Model;
 
 use crate::Verdict;
+use crate::output::write_whole;
 
 /// Emit the Rust code of an arm
 #[derive(Args)]
@@ -32,7 +33,8 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         None => out.write_all(code.as_bytes())?,
         Some(file) if arguments.check => check(file, &code, &arguments.table)?,
         Some(file) => {
-            write_whole(file, &code).with_context(|| format!("cannot write {}", file.display()))?;
+            write_whole(file, code.as_bytes())
+                .with_context(|| format!("cannot write {}", file.display()))?;
         }
     }
     Ok(Verdict::Pass)
@@ -54,23 +56,4 @@ fn check(file: &Path, code: &str, table: &Path) -> anyhow::Result<()> {
         line = same.count() + 1,
         table = table.display(),
     )
-}
-
-/// Writes `text` under another name first, so that `path` is never half of it.
-fn write_whole(path: &Path, text: &str) -> io::Result<()> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    {
-        // Like any new file, and not only for its owner; the umask applies.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(text.as_bytes())?;
-    file.persist(path)?;
-    Ok(())
 }

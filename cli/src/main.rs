@@ -7,8 +7,10 @@ mod check;
 mod console;
 mod cost;
 mod differences;
+mod figures;
 mod generate;
 mod joints;
+mod output;
 mod reproduce;
 mod verify;
 

@@ -5,6 +5,7 @@
 //! Results carry plain lists, one entry for each joint, so that tables and figures need not know how many there are.
 
 mod flight;
+mod truth;
 
 use nalgebra::SVector;
 
@@ -12,11 +13,13 @@ use crate::compensation::{Compensation, Controller};
 use crate::failure::{Failure, LockedJoints};
 use crate::scenario::{Experiment, PlanError, PlannedMotion, Scenario};
 use crate::search::{
-    CoefficientLaw, ForcePriority, Objective, Operation, OperationOptions, Outcome, SearchError,
-    SolveStatus, Stepwise, cancel_per_joint, frontier, least_impact, optimal,
+    CoefficientLaw, ForcePriority, FrontierPoint, Objective, Operation, OperationOptions, Outcome,
+    SearchError, SolveStatus, Stepwise, cancel_per_joint, frontier, least_impact, optimal,
 };
+use crate::simulation::{Ending, SimulationError};
 use crate::{Arm, Law};
 pub use flight::{Flight, Series};
+pub use truth::{BrakeImpulse, Truth, TruthRun};
 
 /// How a compensation is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -171,7 +174,21 @@ pub enum ExperimentError {
     /// The operation cannot be looked at.
     #[error(transparent)]
     Operation(#[from] SearchError),
+    /// The operation cannot be simulated.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// A simulation did not come to its end.
+    #[error("the simulated lock at {time} s did not come to its end: {ending:?}")]
+    Unfinished {
+        /// The failure time, s.
+        time: f64,
+        /// How it ended.
+        ending: Ending,
+    },
 }
+
+/// The largest time between two knots of a tool path, s.
+const KNOT_PERIOD: f64 = 0.02;
 
 /// An arm on the motion of a scenario, ready for its experiments.
 #[derive(Clone, Debug)]
@@ -183,17 +200,15 @@ pub struct Laboratory<'a, A, const N: usize> {
 }
 
 impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
-    /// The largest time between samples at which a search looks at torques, s.
-    const SAMPLE_PERIOD: f64 = 0.05;
     /// How many points of a frontier are computed.
-    const FRONTIER_POINTS: u32 = 24;
+    const FRONTIER_POINTS: u32 = 20;
 
     /// Plans the motion.
     ///
     /// # Errors
     /// When `arm` is not the scenario's, or cannot fly its motion.
     pub fn new(arm: &'a A, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
-        let motion = scenario.motion.plan(arm, Self::SAMPLE_PERIOD)?;
+        let motion = scenario.motion.plan(arm, KNOT_PERIOD)?;
         let failed = &scenario.failed_joints;
         let failed_joints = LockedJoints::new(failed).ok_or_else(|| ExperimentError::Joint {
             joint: failed.iter().copied().max().unwrap_or(0),
@@ -234,19 +249,7 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
         experiment: &Experiment,
         failure_time: f64,
     ) -> Result<Study, ExperimentError> {
-        let failure = Failure {
-            joints: self.failed_joints,
-            time: failure_time,
-        };
-        let rated = experiment.rated_torque.as_deref();
-        let rated = rated.and_then(|rated| <[f64; N]>::try_from(rated).ok());
-        let options = OperationOptions {
-            sample_period: Self::SAMPLE_PERIOD,
-            rated_torque: rated.map_or(SVector::repeat(f64::INFINITY), SVector::from),
-            ..OperationOptions::default()
-        };
-        let force = |time| experiment.force.at(time);
-        let operation = Operation::new(self.arm, &self.motion, force, &failure, &options)?;
+        let operation = self.operation(experiment, failure_time)?;
         let cases = Method::ALL.map(|method| self.case(experiment, &operation, method));
         let per_joint = cases[Method::PerJoint as usize].force_error;
         Ok(Study {
@@ -255,6 +258,31 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
             tradeoff: tradeoff(&operation, per_joint, Self::FRONTIER_POINTS).ok(),
             cases: cases.into(),
         })
+    }
+
+    fn operation(
+        &self,
+        experiment: &Experiment,
+        failure_time: f64,
+    ) -> Result<Operation<N>, SearchError> {
+        let failure = Failure {
+            joints: self.failed_joints,
+            time: failure_time,
+        };
+        let options = OperationOptions {
+            sample_period: self.scenario.cycle,
+            rated_torque: Self::rated_torque(experiment),
+            ..OperationOptions::default()
+        };
+        let force = |time| experiment.force.at(time);
+        Operation::new(self.arm, &self.motion, force, &failure, &options)
+    }
+
+    /// Infinite where there is no limit.
+    fn rated_torque(experiment: &Experiment) -> SVector<f64, N> {
+        let rated = experiment.rated_torque.as_deref();
+        let rated = rated.and_then(|rated| <[f64; N]>::try_from(rated).ok());
+        rated.map_or(SVector::repeat(f64::INFINITY), SVector::from)
     }
 
     fn case(&self, experiment: &Experiment, operation: &Operation<N>, method: Method) -> Case {
@@ -317,22 +345,29 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
     }
 }
 
-/// The frontier up to the force error `most`, N, at which Eq. 16 has no impact left.
+/// The frontier, up to the force error from which more of it buys nothing: with `most` N the impact is all gone, if limits allow.
 fn tradeoff<const N: usize>(
     operation: &Operation<N>,
     most: f64,
     points: u32,
 ) -> Result<Tradeoff, SearchError> {
-    let allowed: Vec<f64> = (0..=points)
-        .map(|i| most * f64::from(i) / f64::from(points))
-        .collect();
-    let points = frontier(operation, &allowed)?;
-    let point = |point: &crate::search::FrontierPoint<N>| {
-        let assessment = &point.outcome.assessment;
-        (assessment.force_error(), assessment.healthy_impact)
+    let up_to = |most: f64| {
+        let allowed: Vec<f64> = (0..=points)
+            .map(|i| most * f64::from(i) / f64::from(points))
+            .collect();
+        let point = |point: &FrontierPoint<N>| {
+            let assessment = &point.outcome.assessment;
+            (assessment.force_error(), assessment.healthy_impact)
+        };
+        let points = frontier(operation, &allowed)?;
+        Ok::<Vec<(f64, f64)>, SearchError>(points.iter().map(point).collect())
     };
+    let coarse = up_to(most)?;
+    let first = coarse.first().map_or(0.0, |point| point.1);
+    let least = coarse.iter().map(|point| point.1).fold(first, f64::min);
+    let enough = coarse.iter().find(|point| point.1 <= least + 1e-6 * first);
     Ok(Tradeoff {
-        frontier: points.iter().map(point).collect(),
+        frontier: up_to(enough.map_or(most, |point| point.0))?,
     })
 }
 

@@ -17,6 +17,7 @@ use std::fmt;
 use std::path::Path;
 
 use crate::diagnostics::{Diagnostics, Sink};
+use crate::simulation::BrakeProfile;
 use crate::toml_reader::read_file;
 use read::ScenarioTable;
 
@@ -39,6 +40,8 @@ pub struct Scenario {
     pub cycle: f64,
     /// The paper's search for k_d.
     pub search: SearchGrid,
+    /// The brakes of the failed joints, where the lock is simulated.
+    pub brake: BrakeSettings,
     /// What is tried with the motion.
     pub experiments: Vec<Experiment>,
     /// The random variation of [`Scenario`] in a campaign.
@@ -52,6 +55,15 @@ pub struct SearchGrid {
     pub start: f64,
     /// The step, above 0; both signs are tried.
     pub step: f64,
+}
+
+/// Brakes that take time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BrakeSettings {
+    /// From moving to locked, s.
+    pub duration: f64,
+    /// How the rate falls in that time.
+    pub profile: BrakeProfile,
 }
 
 /// A tool force and torque limits.

@@ -4,6 +4,7 @@
 //! A `None` stands for a value that is absent or has been reported.
 
 use crate::diagnostics::{Diagnostic, Sink};
+use crate::simulation::BrakeProfile;
 use crate::table::AngleUnit;
 use crate::toml_reader::{self, Fields, Located, Value};
 
@@ -24,6 +25,7 @@ pub(super) struct ScenarioTable {
     pub(super) failure: Option<FailureTable>,
     pub(super) cycle: Number,
     pub(super) search: Option<SearchTable>,
+    pub(super) brake: BrakeTable,
     pub(super) experiments: Option<Vec<ExperimentTable>>,
     pub(super) campaign: CampaignTable,
 }
@@ -72,6 +74,13 @@ pub(super) struct FailureTable {
 pub(super) struct SearchTable {
     pub(super) start: Number,
     pub(super) step: Number,
+}
+
+/// `[brake]`; all keys are optional.
+#[derive(Default)]
+pub(super) struct BrakeTable {
+    pub(super) duration: Number,
+    pub(super) profile: Option<BrakeProfile>,
 }
 
 /// `[[experiment]]`
@@ -179,6 +188,10 @@ impl ScenarioTable {
                         step: number(search.required("step", "step = 1e6")),
                     })
                 }),
+            brake: fields
+                .optional("brake", "[brake]` and below it `duration = 0.1")
+                .and_then(|value| value.table("[brake]", read_brake))
+                .unwrap_or_default(),
             experiments: fields
                 .required("experiment", "[[experiment]]` once for each tool force")
                 .and_then(|value| read_experiments(value, sink)),
@@ -229,6 +242,23 @@ fn read_motion(motion: &mut Fields<'_>) -> MotionTable {
         max_acceleration: list(
             motion.optional("max_acceleration", "max_acceleration = [0.1, 0.1]"),
         ),
+    }
+}
+
+fn read_brake(brake: &mut Fields<'_>) -> BrakeTable {
+    let profiles = [
+        ("constant", BrakeProfile::Constant),
+        ("smooth", BrakeProfile::Smooth),
+    ];
+    BrakeTable {
+        duration: number(brake.optional("duration", "duration = 0.1")),
+        profile: brake
+            .optional(
+                "profile",
+                "profile = \"constant\"` or `profile = \"smooth\"",
+            )
+            .and_then(|value| value.choice(&profiles))
+            .map(|profile| profile.value),
     }
 }
 

@@ -1,17 +1,23 @@
 //! `ulna reproduce`: the experiments of a scenario.
 
+mod drawings;
+mod page;
+mod results;
 mod table;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use rayon::prelude::*;
 use ulna::Arm;
-use ulna::experiment::{ExperimentError, Laboratory, Study};
-use ulna::scenario::Scenario;
+use ulna::Scenario;
+use ulna::experiment::{ExperimentError, Laboratory, Study, Truth};
+use ulna::scenario::Experiment;
 
-use crate::Verdict;
 use crate::arms::{ForArm, GENERATED, with_arm};
+use crate::output::Files;
+use crate::{Verdict, console};
 
 /// The scenario that is repeated when none is named; compiled in, so that the program needs no repository.
 const PAPER_LIKE: &str = include_str!("../../../scenarios/paper_like.toml");
@@ -47,18 +53,69 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
             GENERATED,
         )?,
     };
-    let studies = with_arm(&scenario.arm, Studies(&scenario))??;
-    table::write(&scenario, &studies, out)?;
+    let findings = with_arm(&scenario.arm, Findings::of(&scenario))??;
+    table::write(&scenario, &findings, out)?;
+    out.flush()?;
+    let mut files = Files::default();
+    files.add("README.md", page::write(&scenario, &findings)?);
+    results::add(&mut files, &scenario, &findings)?;
+    drawings::add(&mut files, &scenario, &findings)?;
+    for path in files.write_to(&arguments.output)? {
+        console::note(&format!("wrote {}", path.display()));
+    }
     Ok(Verdict::Pass)
 }
 
-/// Every experiment of a scenario.
-struct Studies<'s>(&'s Scenario);
+/// What came of a scenario.
+struct Findings {
+    /// Every experiment at every failure time.
+    studies: Vec<Study>,
+    /// The first experiment simulated, at every failure time; `Err` if that cannot be.
+    truths: Result<Vec<Truth>, ExperimentError>,
+}
 
-impl ForArm for Studies<'_> {
-    type Output = Result<Vec<Study>, ExperimentError>;
+impl Findings {
+    /// The studies of an experiment, one for each failure time.
+    fn of_section<'f>(&'f self, experiment: &Experiment) -> Vec<&'f Study> {
+        let studies = self.studies.iter();
+        studies
+            .filter(|study| study.section == experiment.section)
+            .collect()
+    }
+
+    /// The work that leads to the findings.
+    fn of(scenario: &Scenario) -> Work<'_> {
+        Work(scenario)
+    }
+}
+
+struct Work<'s>(&'s Scenario);
+
+impl ForArm for Work<'_> {
+    type Output = Result<Findings, ExperimentError>;
 
     fn run<A: Arm<N> + Sync, const N: usize>(self, arm: &A) -> Self::Output {
-        Laboratory::new(arm, self.0)?.run()
+        let Scenario {
+            experiments,
+            failure_times,
+            ..
+        } = self.0;
+        let laboratory = Laboratory::new(arm, self.0)?;
+        let pairs = experiments.iter().flat_map(|experiment| {
+            let times = failure_times.iter();
+            times.map(move |time| (experiment, *time))
+        });
+        // Each stands by itself, and the order of the results is that of the pairs.
+        let pairs: Vec<_> = pairs.collect();
+        let studies = pairs
+            .into_par_iter()
+            .map(|(experiment, time)| laboratory.study(experiment, time));
+        let truths = failure_times
+            .par_iter()
+            .map(|time| laboratory.truth(&experiments[0], *time));
+        Ok(Findings {
+            studies: studies.collect::<Result<_, _>>()?,
+            truths: truths.collect(),
+        })
     }
 }

@@ -4,8 +4,11 @@ use std::io::{self, Write};
 
 use comfy_table::presets;
 use comfy_table::{CellAlignment, Table};
-use ulna::experiment::{Case, Method, Study};
+use ulna::experiment::{Case, Method, Study, Truth};
 use ulna::scenario::{Experiment, Reference, Scenario};
+
+use super::Findings;
+use super::results::{name, solve_status};
 
 /// Columns of a table of impacts, one for each method.
 const METHODS: [(Method, &str); 4] = [
@@ -16,12 +19,16 @@ const METHODS: [(Method, &str); 4] = [
 ];
 
 /// All tables of a scenario.
-pub(super) fn write(scenario: &Scenario, studies: &[Study], out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn write(
+    scenario: &Scenario,
+    findings: &Findings,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     writeln!(out, "{}", heading(scenario))?;
     for experiment in &scenario.experiments {
         writeln!(out, "\n{} {}", experiment.section, experiment.title)?;
-        let of_section = |study: &&Study| study.section == experiment.section;
-        for study in studies.iter().filter(of_section) {
+        let studies = findings.of_section(experiment);
+        for study in &studies {
             let reference = reference_at(experiment, study.failure_time);
             writeln!(
                 out,
@@ -32,18 +39,30 @@ pub(super) fn write(scenario: &Scenario, studies: &[Study], out: &mut dyn Write)
             writeln!(out, "{}", impacts(scenario, study, reference))?;
         }
         writeln!(out, "\ncoefficients k_d of Eq. 16, in 1e7")?;
-        let studies: Vec<_> = studies.iter().filter(of_section).collect();
         writeln!(out, "{}", coefficients(experiment, &studies))?;
+    }
+    if let Some(experiment) = scenario.experiments.first() {
+        writeln!(out, "\nsearches for {}", experiment.section)?;
+        writeln!(out, "{}", searches(&findings.of_section(experiment)))?;
+    }
+    if let Ok(truths) = &findings.truths {
+        writeln!(
+            out,
+            "\nthe lock as it is, with ever shorter brakes: impulse in N m s"
+        )?;
+        writeln!(out, "{}", convergence(truths))?;
     }
     Ok(())
 }
 
+/// The joints that lock, counted from 1.
+pub(super) fn failed_joints(scenario: &Scenario) -> String {
+    let joints = scenario.failed_joints.iter();
+    let names: Vec<_> = joints.map(|joint| (joint + 1).to_string()).collect();
+    names.join(" and ")
+}
+
 fn heading(scenario: &Scenario) -> String {
-    let failed: Vec<_> = scenario
-        .failed_joints
-        .iter()
-        .map(|joint| format!("{}", joint + 1))
-        .collect();
     let description = match scenario.description.as_str() {
         "" => String::new(),
         description => format!(" ({description})"),
@@ -52,7 +71,7 @@ fn heading(scenario: &Scenario) -> String {
         "{}: arm {}, joint {} locks{description}",
         scenario.name,
         scenario.arm.name(),
-        failed.join(" and ")
+        failed_joints(scenario)
     )
 }
 
@@ -184,6 +203,68 @@ fn coefficients(experiment: &Experiment, studies: &[&Study]) -> Table {
     table
 }
 
+/// A row for each search: what it took, and what it left.
+fn searches(studies: &[&Study]) -> Table {
+    let mut table = plain_table();
+    table.set_header([
+        "at",
+        "law",
+        "ended",
+        "steps",
+        "microseconds",
+        "norm left, N m",
+    ]);
+    for case in studies.iter().flat_map(|study| &study.cases) {
+        let (ended, steps, time) = match &case.search {
+            Ok(search) => (
+                solve_status(search.status).to_owned(),
+                search.iterations.to_string(),
+                format!("{:.0}", 1e6 * search.seconds),
+            ),
+            Err(error) => (error.to_string(), String::new(), String::new()),
+        };
+        table.add_row([
+            format!("{} s", case.failure_time),
+            name(case.method).to_owned(),
+            ended,
+            steps,
+            time,
+            significant(case.healthy_impact().1),
+        ]);
+    }
+    table
+}
+
+/// A row for each brake time.
+fn convergence(truths: &[Truth]) -> Table {
+    let mut table = plain_table();
+    table.set_header([
+        "at",
+        "joint",
+        "brake time, s",
+        "brake's impulse",
+        "ideal lock",
+        "rel. difference",
+        "peak torque, N m",
+    ]);
+    for truth in truths {
+        for point in &truth.convergence {
+            for (i, joint) in truth.failed_joints.iter().enumerate() {
+                table.add_row([
+                    format!("{} s", truth.failure_time),
+                    (joint + 1).to_string(),
+                    format!("{:e}", point.brake_time),
+                    format!("{:.6}", point.impulse[i]),
+                    format!("{:.6}", point.ideal[i]),
+                    format!("{:.1e}", point.relative_difference),
+                    significant(point.peak_brake_torque),
+                ]);
+            }
+        }
+    }
+    table
+}
+
 /// Without lines; numbers to the right.
 fn plain_table() -> Table {
     let mut table = Table::new();
@@ -192,12 +273,14 @@ fn plain_table() -> Table {
 }
 
 /// Four digits; what is rounding is 0.
-fn significant(value: f64) -> String {
+pub(super) fn significant(value: f64) -> String {
     let size = value.abs();
     if size < 1e-9 {
         "0".to_owned()
     } else if size < 1e-3 {
         format!("{value:.1e}")
+    } else if size >= 1e5 {
+        format!("{value:.3e}")
     } else {
         let decimals = (3.0 - size.log10().floor()).clamp(0.0, 5.0) as usize;
         format!("{value:.decimals$}")

@@ -1,9 +1,17 @@
 //! `ulna reproduce`.
 
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::assert::Assert;
+use serde_json::Value;
+use tempfile::TempDir;
+
 use crate::support::{stderr, stdout, ulna};
 
-/// The paper-like scenario with long control cycles and one failure time, in a folder of its own.
-fn quick_scenario(edits: &[(&str, &str)]) -> tempfile::TempDir {
+/// A folder with `quick.toml`: the paper-like scenario with long control cycles and one failure time, and `edits`.
+fn quick_scenario(edits: &[(&str, &str)]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let mut text = include_str!("../../../scenarios/paper_like.toml").to_owned();
     let quick = [
@@ -14,11 +22,11 @@ fn quick_scenario(edits: &[(&str, &str)]) -> tempfile::TempDir {
         assert!(text.contains(from), "the scenario has no {from:?}");
         text = text.replacen(from, to, 1);
     }
-    std::fs::write(folder.path().join("quick.toml"), text).unwrap();
+    fs::write(folder.path().join("quick.toml"), text).unwrap();
     folder
 }
 
-fn reproduce(folder: &tempfile::TempDir) -> assert_cmd::assert::Assert {
+fn reproduce(folder: &TempDir) -> Assert {
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     ulna(&["reproduce", &path("quick.toml"), "--output", &path("out")])
 }
@@ -34,39 +42,282 @@ fn row<'t>(text: &'t str, title: &str) -> Vec<&'t str> {
         .collect()
 }
 
+/// All files below `folder`, by their paths in it.
+fn files(folder: &Path) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {
+        let name = entry.file_name().into_string().unwrap();
+        if entry.path().is_dir() {
+            let below = files(&entry.path());
+            found.extend(below.iter().map(|file| format!("{name}/{file}")));
+        } else {
+            found.insert(name);
+        }
+    }
+    found
+}
+
+/// The numbers under `key` of a case.
+fn numbers(case: &Value, key: &str) -> Vec<f64> {
+    let numbers = case[key].as_array();
+    let numbers = numbers.unwrap_or_else(|| panic!("{key} of {case}"));
+    numbers
+        .iter()
+        .map(|number| number.as_f64().unwrap())
+        .collect()
+}
+
+fn keys(value: &Value) -> BTreeSet<&str> {
+    value
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
+}
+
+const FIGURES: [&str; 9] = [
+    "figure_4",
+    "figure_5",
+    "figure_6",
+    "figure_7",
+    "frontier-5.2",
+    "frontier-5.3",
+    "frontier-5.4",
+    "simulated-lock",
+    "ever-shorter-brakes",
+];
+
 #[test]
-fn impacts_stand_beside_the_papers() {
-    let run = reproduce(&quick_scenario(&[])).code(0);
-    let out = stdout(&run);
+fn everything_is_printed_and_written() {
+    let folder = quick_scenario(&[]);
+    let run = reproduce(&folder).code(0);
+    tables_stand_beside_the_papers(&stdout(&run));
+    let output = folder.path().join("out");
+    let written = files(&output);
+    let err = stderr(&run);
+    for file in &written {
+        assert!(err.contains(file), "{file} is not in the list:\n{err}");
+    }
+    let tables = [
+        "README.md",
+        "results.json",
+        "impact.csv",
+        "search.csv",
+        "frontier.csv",
+        "truth.csv",
+        "convergence.csv",
+    ];
+    let mut expected: BTreeSet<String> = tables.map(str::to_owned).into();
+    for section in ["5.2", "5.3", "5.4"] {
+        let laws = ["eq16", "eq20", "optimal"];
+        expected.extend(laws.map(|law| format!("series/{section}_10s_{law}.csv")));
+    }
+    for figure in FIGURES {
+        expected.extend(["svg", "png"].map(|kind| format!("figures/{figure}.{kind}")));
+    }
+    assert_eq!(written, expected);
+    results_are_as_promised(&output);
+    figures_are_whole(&output);
+    // Whatever the page points to is there.
+    let page = fs::read_to_string(output.join("README.md")).unwrap();
+    let links = page.split("](").skip(1);
+    let links: Vec<_> = links.filter_map(|rest| rest.split(')').next()).collect();
+    assert_eq!(links.len(), FIGURES.len());
+    for link in links {
+        assert!(output.join(link).exists(), "{link}");
+    }
+}
+
+fn tables_stand_beside_the_papers(out: &str) {
     assert!(
         out.starts_with("paper_like: arm ssrms, joint 2 locks (fitted"),
         "{out}"
     );
     // Before, the paper's, after the paper's search, the paper's, after the exact search, Eq. 20, optimal.
     assert_eq!(
-        row(&out, "1 "),
+        row(out, "1 "),
         ["35.97", "30.18", "0.1052", "0.1472", "0", "4.983", "3.896"]
     );
-    assert_eq!(row(&out, "2 (locks)")[..2], ["61.95", "66.72"]);
+    assert_eq!(row(out, "2 (locks)")[..2], ["61.95", "66.72"]);
     assert_eq!(
-        row(&out, "norm, healthy joints"),
+        row(out, "norm, healthy joints"),
         ["42.87", "0.1173", "3.8e-4", "9.973", "6.591"]
     );
+    assert_eq!(
+        row(out, "10 s  paper, Table 4"),
+        [
+            "-9.00", "-8.50", "-9.00", "-8.50", "-12.00", "-10.00", "0.00"
+        ]
+    );
+    assert!(out.contains("with ever shorter brakes"), "{out}");
+}
+
+fn results_are_as_promised(output: &Path) {
+    let text = fs::read_to_string(output.join("results.json")).unwrap();
+    let results: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(keys(&results), ["arm", "scenario", "cases"].into());
+    assert_eq!(results["arm"], "ssrms");
+    assert_eq!(results["scenario"], "paper_like");
+    let cases = results["cases"].as_array().unwrap();
+    let found: Vec<_> = cases
+        .iter()
+        .map(|case| (case["section"].as_str().unwrap(), &case["law"]))
+        .collect();
+    let expected: Vec<_> = ["5.2", "5.3", "5.4"]
+        .into_iter()
+        .flat_map(|section| ["eq16", "eq20", "optimal"].map(|law| (section, Value::from(law))))
+        .collect();
+    let expected: Vec<_> = expected
+        .iter()
+        .map(|(section, law)| (*section, law))
+        .collect();
+    assert_eq!(found, expected);
+    for case in cases {
+        let expected = [
+            "section",
+            "law",
+            "failed_joint",
+            "failure_time",
+            "rated_torque",
+            "impact_before",
+            "impact_after",
+            "suppression_percent",
+            "coefficients",
+            "max_force_error",
+            "max_torque",
+            "status",
+        ];
+        assert_eq!(keys(case), expected.into());
+        assert_eq!(case["failed_joint"], 2);
+        assert_eq!(case["failure_time"], 10.0);
+        for key in ["coefficients", "max_torque"] {
+            assert_eq!(numbers(case, key).len(), 7, "{key}");
+        }
+        assert_eq!(case["rated_torque"].is_null(), case["section"] == "5.2");
+        let before = numbers(case, "impact_before");
+        let after = numbers(case, "impact_after");
+        let percent = numbers(case, "suppression_percent");
+        assert_eq!((before.len(), after.len(), percent.len()), (7, 7, 7));
+        for joint in 0..7 {
+            let expected = 100.0 * (1.0 - after[joint] / before[joint]);
+            assert!((percent[joint] - expected).abs() < 1e-9);
+        }
+    }
+    let after = numbers(&cases[0], "impact_after");
+    assert!(after[..6].iter().all(|after| *after < 1e-6), "{after:?}");
+    assert!(cases[0]["max_force_error"].as_f64().unwrap() > 100.0);
+    assert!(cases[1]["max_force_error"].as_f64().unwrap() < 1e-6);
+    let peaks = numbers(&cases[3], "max_torque");
+    let rated = numbers(&cases[3], "rated_torque");
+    let peaks = peaks.iter().zip(&rated);
+    assert!(peaks.clone().all(|(peak, rated)| peak <= rated));
+    assert!(
+        peaks
+            .clone()
+            .any(|(peak, rated)| *peak > rated * (1.0 - 1e-9))
+    );
+    assert_eq!(cases[0]["status"], "nominal");
+}
+
+/// A PNG of twice the SVG's size, and an SVG with axes, units and a legend in it.
+fn figures_are_whole(output: &Path) {
+    for figure in FIGURES {
+        let svg = fs::read_to_string(output.join(format!("figures/{figure}.svg"))).unwrap();
+        assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
+        let unit = [" in s", " in N"].iter().any(|unit| svg.contains(unit));
+        assert!(unit && svg.matches("<text").count() > 10, "{figure}");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{figure}");
+        let number = |key: &str| -> u32 {
+            let (_, rest) = svg.split_once(&format!("{key}=\"")).unwrap();
+            rest.split('"').next().unwrap().parse().unwrap()
+        };
+        let png = fs::read(output.join(format!("figures/{figure}.png"))).unwrap();
+        let reader = png::Decoder::new(std::io::Cursor::new(png)).read_info();
+        let size = reader.unwrap().info().size();
+        assert_eq!(
+            size,
+            (2 * number("width"), 2 * number("height")),
+            "{figure}"
+        );
+    }
+}
+
+#[test]
+fn a_table_runs_on_the_generic_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = include_str!("../../../arms/planar_2r.toml").replace("planar_2r", "my_arm");
+    fs::write(folder.path().join("my_arm.toml"), table).unwrap();
+    let scenario = r#"
+name = "by_table"
+arm = "my_arm.toml"
+angle_unit = "deg"
+[motion]
+kind = "tool"
+angles = "q"
+start = [10, 60]
+displacement = [-0.3, 0.2, 0, 0, 0, 0]
+duration = 2
+blend = 0.5
+[failure]
+joints = [2]
+times = [0.9]
+[control]
+cycle = 0.1
+[search]
+start = 0
+step = 1e-3
+[[experiment]]
+section = "a"
+force = [1, [0, 2], 0]
+rated_torque = "table"
+"#;
+    fs::write(folder.path().join("quick.toml"), scenario).unwrap();
+    let out = stdout(&reproduce(&folder).code(0));
+    assert!(
+        out.starts_with("by_table: arm my_arm, joint 2 locks\n"),
+        "{out}"
+    );
+    let text = fs::read_to_string(folder.path().join("out/results.json")).unwrap();
+    let results: Value = serde_json::from_str(&text).unwrap();
+    let case = &results["cases"][0];
+    assert_eq!(numbers(case, "rated_torque"), [40.0, 15.0]);
+    let before = numbers(case, "impact_before");
+    assert!(before.iter().all(|impact| *impact > 0.0), "{before:?}");
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_named() {
+    let folder = quick_scenario(&[]);
+    fs::write(folder.path().join("out"), "a file").unwrap();
+    let err = stderr(&reproduce(&folder).code(1));
+    assert!(err.contains("error: cannot make the folder"), "{err}");
+    assert!(err.contains("/out"), "{err}");
+}
+
+#[test]
+fn a_motion_that_cannot_be_flown_is_refused() {
+    let slow = "blend = 4.455\nmax_velocity = [1, 1, 0.2, 1, 1, 1, 1]";
+    let folder = quick_scenario(&[("blend = 4.455", slow)]);
+    let err = stderr(&reproduce(&folder).code(1).stdout(""));
+    let message = "error: the motion cannot be flown: joint 3 would need 0.283";
+    assert!(err.contains(message), "{err}");
+    assert!(!folder.path().join("out").exists());
 }
 
 #[test]
 fn bad_scenarios_are_refused_with_every_error_and_nothing_is_written() {
-    let folder = quick_scenario(&[
+    let edits = [
         ("arm = \"ssrms\"", "arm = \"ssrm\""),
         ("step = 1e6", "step = 0"),
-    ]);
-    let run = reproduce(&folder).code(1).stdout("");
-    let err = stderr(&run);
+    ];
+    let folder = quick_scenario(&edits);
+    let err = stderr(&reproduce(&folder).code(1).stdout(""));
     for message in [
         "error: no arm is called `ssrm`",
+        "quick.toml:6:7",
         "help: did you mean \"ssrms\"?",
         "error: `step` of [search] is out of bounds",
-        "quick.toml:27:8",
     ] {
         assert!(err.contains(message), "{message} is missing in:\n{err}");
     }

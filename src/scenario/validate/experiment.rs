@@ -55,7 +55,16 @@ impl Reader<'_> {
                     );
                     experiment = None;
                 }
-                sections.push(&section.value);
+                // It becomes a part of files' names.
+                let plain = |c: char| c.is_ascii_alphanumeric() || ".-_".contains(c);
+                let name = &section.value;
+                if !name.chars().all(plain) || !(1..=32).contains(&name.len()) {
+                    let message = format!("section {name:?} cannot be part of a file's name");
+                    let help = "write up to 32 letters, digits, dots, hyphens and underscores";
+                    self.refuse(&section.span, message, "", help);
+                    experiment = None;
+                }
+                sections.push(name);
             }
             for name in table
                 .figures

@@ -7,7 +7,7 @@ use super::arm::ScenarioArm;
 use super::read::{
     CampaignTable, FailureTable, List, MotionTable, Number, Numbers, ScenarioTable, SearchTable,
 };
-use super::{CampaignSettings, Scenario, SearchGrid};
+use super::{BrakeSettings, CampaignSettings, Scenario, SearchGrid};
 use crate::Joint;
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::table::AngleUnit;
@@ -23,6 +23,13 @@ const CYCLE: Bound = Bound {
     unit: "s",
     help: "a control cycle is in seconds, for example 0.01",
 };
+const BRAKE: Bound = Bound {
+    range: 1e-6..=10.0,
+    unit: "s",
+    help: "a brake takes its joint to rest in a finite time, for example 0.1 s",
+};
+/// How long a brake takes, s, in a scenario that does not say.
+const DEFAULT_BRAKE: f64 = 0.1;
 const COEFFICIENT: Bound = Bound {
     range: -1e16..=1e16,
     unit: "",
@@ -82,6 +89,14 @@ impl ScenarioTable {
             .experiments
             .as_ref()
             .and_then(|tables| reader.experiments(tables, times));
+        let brake = match &self.brake.duration {
+            Some(_) => reader.bounded(&self.brake.duration, &BRAKE),
+            None => Some(DEFAULT_BRAKE),
+        };
+        let brake = brake.map(|duration| BrakeSettings {
+            duration,
+            profile: self.brake.profile.unwrap_or_default(),
+        });
         let campaign = reader.campaign(&self.campaign);
         let (failed_joints, failure_times) = failure?;
         Some(Scenario {
@@ -92,6 +107,7 @@ impl ScenarioTable {
             failure_times,
             cycle: cycle?,
             search: search?,
+            brake: brake?,
             experiments: experiments?,
             campaign: campaign?,
             arm: arm?,

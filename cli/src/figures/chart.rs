@@ -1,0 +1,190 @@
+//! Panels with axes, and the legend above them.
+
+use core::ops::Range;
+
+use plotters::chart::{ChartBuilder, ChartContext};
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::combinators::{IntoLogRange, LogCoord};
+use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::element::{PathElement, Rectangle, Text};
+use plotters::prelude::DrawingBackend;
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{Color, RGBColor};
+
+use super::stroke::Stroke;
+use super::style::{self, BLACK, GREY, Pen, anchored};
+use super::{Area, Drawn};
+
+/// A panel with two linear axes.
+pub(super) type Panel<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// What the axes of a panel say.
+pub(super) struct Axes<'t> {
+    pub(super) title: &'t str,
+    pub(super) x: (&'t str, Range<f64>),
+    pub(super) y: (&'t str, Range<f64>),
+}
+
+/// A panel that drew, or why it could not be drawn.
+type Built<'a, DB, X, Y> = Result<
+    ChartContext<'a, DB, Cartesian2d<X, Y>>,
+    DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>,
+>;
+
+/// An empty panel.
+pub(super) fn panel<'a, DB: DrawingBackend>(
+    area: &'a Area<DB>,
+    pen: Pen,
+    axes: &Axes<'_>,
+) -> Built<'a, DB, RangedCoordf64, RangedCoordf64> {
+    let (x, y) = (axes.x.1.clone(), axes.y.1.clone());
+    with_coordinates(area, pen, axes, (x, 7), (y, 6))
+}
+
+/// An empty panel with a tick at each whole number of its horizontal axis and a logarithmic vertical one.
+pub(super) fn bar_panel<'a, DB: DrawingBackend>(
+    area: &'a Area<DB>,
+    pen: Pen,
+    axes: &Axes<'_>,
+) -> Built<'a, DB, RangedCoordf64, LogCoord<f64>> {
+    let (x, y) = (axes.x.1.clone(), axes.y.1.clone().log_scale());
+    let ticks = (axes.x.1.end - axes.x.1.start) as usize;
+    with_coordinates(area, pen, axes, (x, ticks), (y, 6))
+}
+
+/// An empty panel with two logarithmic axes.
+pub(super) fn double_log_panel<'a, DB: DrawingBackend>(
+    area: &'a Area<DB>,
+    pen: Pen,
+    axes: &Axes<'_>,
+) -> Built<'a, DB, LogCoord<f64>, LogCoord<f64>> {
+    let (x, y) = (axes.x.1.clone().log_scale(), axes.y.1.clone().log_scale());
+    with_coordinates(area, pen, axes, (x, 8), (y, 8))
+}
+
+/// An empty panel with these coordinates, and about so many ticks on each axis.
+fn with_coordinates<'a, DB: DrawingBackend, X, Y>(
+    area: &'a Area<DB>,
+    pen: Pen,
+    axes: &Axes<'_>,
+    (x, x_ticks): (X, usize),
+    (y, y_ticks): (Y, usize),
+) -> Built<'a, DB, X::CoordDescType, Y::CoordDescType>
+where
+    X: AsRangedCoord<Value = f64>,
+    X::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    Y: AsRangedCoord<Value = f64>,
+    Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    let mut chart = ChartBuilder::on(area)
+        .margin_top(pen.px(6))
+        .margin_bottom(pen.px(4))
+        .margin_left(pen.px(6))
+        .margin_right(pen.px(18))
+        .caption(axes.title, pen.title())
+        .x_label_area_size(pen.px(44))
+        .y_label_area_size(pen.px(66))
+        .build_cartesian_2d(x, y)?;
+    chart
+        .configure_mesh()
+        .bold_line_style(GREY.mix(0.25).stroke_width(pen.px(1)))
+        .light_line_style(GREY.mix(0.0))
+        .axis_style(BLACK.stroke_width(pen.px(1)))
+        .x_labels(x_ticks)
+        .y_labels(y_ticks)
+        .x_label_formatter(&|x| tick(*x))
+        .y_label_formatter(&|y| tick(*y))
+        .x_desc(axes.x.0)
+        .y_desc(axes.y.0)
+        .label_style(pen.small())
+        .axis_desc_style(pen.text())
+        .set_all_tick_mark_size(pen.px(4))
+        .draw()?;
+    Ok(chart)
+}
+
+/// The shortest text of a tick that is exact to a thousandth; smaller ones by their power of ten.
+fn tick(value: f64) -> String {
+    if value.abs() < 1e-3 && value != 0.0 {
+        return format!("{value:e}").replace('-', "\u{2212}");
+    }
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.replace('-', "\u{2212}")
+    }
+}
+
+/// A range around `values`, with some air; never empty, never infinite.
+pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Range<f64> {
+    let finite = values.into_iter().filter(|value| value.is_finite());
+    let (least, most) = finite.fold(
+        (f64::INFINITY, f64::NEG_INFINITY),
+        |(least, most), value| (least.min(value), most.max(value)),
+    );
+    if least > most {
+        return -1.0..1.0;
+    }
+    let air = (0.06 * (most - least)).max(1e-9 * most.abs()).max(1e-6);
+    least - air..most + air
+}
+
+/// One entry of a legend.
+pub(super) enum Key {
+    /// A curve.
+    Stroke(Stroke),
+    /// A filled patch.
+    Patch(RGBColor),
+    /// A marker.
+    Marker(style::Marker, RGBColor),
+}
+
+/// Draws the entries side by side, from the left, on the upper edge of `area`; as many rows as it takes.
+pub(super) fn legend<DB: DrawingBackend>(
+    area: &Area<DB>,
+    pen: Pen,
+    entries: &[(Key, String)],
+) -> Drawn<DB> {
+    let width = area.dim_in_pixel().0.cast_signed();
+    let text = anchored(&pen.text(), HPos::Left, VPos::Center);
+    let (mut x, mut y) = (pen.at(72), pen.at(14));
+    for (key, label) in entries {
+        let length = area.estimate_text_size(label, &pen.text())?.0.cast_signed();
+        let entry = pen.at(38) + length + pen.at(22);
+        if x + entry > width && x > pen.at(72) {
+            (x, y) = (pen.at(72), y + pen.at(20));
+        }
+        let end = x + pen.at(30);
+        match key {
+            Key::Stroke(stroke) => {
+                let style = stroke.style(pen);
+                let (dash, gap) = stroke.dash.map_or((30, 1), |(dash, gap)| {
+                    (dash.cast_signed(), gap.cast_signed())
+                });
+                let mut from = x;
+                while from < end {
+                    let to = (from + pen.at(dash)).min(end);
+                    area.draw(&PathElement::new(vec![(from, y), (to, y)], style))?;
+                    from = to + pen.at(gap);
+                }
+            }
+            Key::Patch(colour) => {
+                let patch = [
+                    (x + pen.at(8), y - pen.at(6)),
+                    (x + pen.at(24), y + pen.at(6)),
+                ];
+                area.draw(&Rectangle::new(patch, colour.filled()))?;
+            }
+            Key::Marker(marker, colour) => {
+                marker.draw(area, pen, (x + pen.at(16), y), *colour)?;
+            }
+        }
+        area.draw(&Text::new(label.clone(), (x + pen.at(36), y), text.clone()))?;
+        x += entry;
+    }
+    Ok(())
+}

@@ -1,0 +1,159 @@
+//! The impact joint by joint at each failure time, and the tool force over time: the paper's Figure 7.
+
+use plotters::element::Rectangle;
+use plotters::element::Text;
+use plotters::prelude::DrawingBackend;
+use plotters::style::Color;
+use plotters::style::text_anchor::{HPos, VPos};
+use ulna::experiment::{Case, Method, Study};
+
+use super::chart::{Axes, Key, bar_panel, legend, panel, range};
+use super::stroke::Stroke;
+use super::style::{BLACK, BLUE, GREEN, GREY, ORANGE, Pen, anchored};
+use super::{Area, Drawn, Figure};
+
+/// Bars for each failure time, and the tool force if it varies.
+pub(crate) struct Impacts<'s> {
+    /// One for each failure time.
+    pub(crate) studies: &'s [&'s Study],
+    /// Whether to draw the tool force over time.
+    pub(crate) with_force: bool,
+}
+
+const BARS: [(Method, &str, plotters::style::RGBColor); 3] = [
+    (Method::PerJoint, "Eq. 16 (force bent)", BLUE),
+    (Method::Projected, "Eq. 20 (force kept)", ORANGE),
+    (Method::Optimal, "optimal (force kept)", GREEN),
+];
+
+/// Below this, N m, a bar is not drawn any shorter.
+const FLOOR: f64 = 1e-3;
+
+impl Figure for Impacts<'_> {
+    fn size(&self) -> (u32, u32) {
+        let panels = self.studies.len() as u32 + u32::from(self.with_force);
+        (1000, 40 + 300 * panels.div_ceil(2).max(1))
+    }
+
+    fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
+        let (head, body) = area.split_vertically(pen.px(34));
+        let mut entries = vec![(Key::Patch(GREY), "without suppression".to_owned())];
+        entries.extend(BARS.map(|(_, label, colour)| (Key::Patch(colour), label.to_owned())));
+        if self.with_force {
+            entries.push((Key::Stroke(FORCE), "tool force asked for".to_owned()));
+        }
+        legend(&head, pen, &entries)?;
+        let panels = self.studies.len() + usize::from(self.with_force);
+        let areas = body.split_evenly((panels.div_ceil(2).max(1), 2));
+        let mut areas = areas.iter();
+        if self.with_force
+            && let (Some(area), Some(study)) = (areas.next(), self.force_study())
+        {
+            force(area, pen, study)?;
+        }
+        let values = self.studies.iter().flat_map(|study| {
+            let before = study.case(Method::PerJoint).impact_before.iter().copied();
+            before.chain(
+                BARS.into_iter()
+                    .flat_map(|(method, ..)| study.case(method).impact_after.iter().copied()),
+            )
+        });
+        let top = 2.0 * values.fold(FLOOR * 10.0, f64::max);
+        for (study, area) in self.studies.iter().zip(areas) {
+            bars(area, pen, study, top)?;
+        }
+        Ok(())
+    }
+}
+
+const FORCE: Stroke = Stroke {
+    colour: BLACK,
+    width: 2,
+    dash: Some((8, 4)),
+};
+
+impl Impacts<'_> {
+    /// The failure time whose tool force is drawn: the middle one.
+    fn force_study(&self) -> Option<&Study> {
+        self.studies.get(self.studies.len() / 2).copied()
+    }
+}
+
+/// The size of the static tool force: asked for, and as the laws give it.
+fn force<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study) -> Drawn<DB> {
+    let size = |force: &[f64; 6], error: &[f64; 6]| {
+        let components = force.iter().zip(error).take(3);
+        components
+            .map(|(force, error)| (force + error).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
+    let given = |case: &Case| {
+        let series = &case.flight.series;
+        let forces = series.force.iter().zip(&series.force_error);
+        let points = series.time.iter().zip(forces);
+        points
+            .map(|(time, (force, error))| (*time, size(force, error)))
+            .collect::<Vec<_>>()
+    };
+    let series = &study.case(Method::PerJoint).flight.series;
+    let asked: Vec<_> = series
+        .time
+        .iter()
+        .zip(&series.force)
+        .map(|(time, force)| (*time, size(force, &[0.0; 6])))
+        .collect();
+    let curves = BARS.map(|(method, _, colour)| (given(study.case(method)), colour));
+    let all = || curves.iter().flat_map(|(points, _)| points).chain(&asked);
+    let y = range(all().map(|point| point.1).chain([0.0]));
+    let x = 0.0..all().map(|point| point.0).fold(1e-3, f64::max);
+    let title = format!("static tool force, lock at {} s", study.failure_time);
+    let mut panel = panel(
+        area,
+        pen,
+        &Axes {
+            title: &title,
+            x: ("time in s", x),
+            y: ("size of the force in N", y),
+        },
+    )?;
+    for (points, colour) in &curves {
+        let stroke = Stroke {
+            colour: *colour,
+            width: 2,
+            dash: None,
+        };
+        stroke.curve(&mut panel, pen, points)?;
+    }
+    FORCE.curve(&mut panel, pen, &asked)
+}
+
+/// A group of bars for each joint, on a logarithmic axis.
+fn bars<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study, top: f64) -> Drawn<DB> {
+    let before = &study.case(Method::PerJoint).impact_before;
+    let joints = before.len();
+    let title = format!("lock at {} s", study.failure_time);
+    let axes = Axes {
+        title: &title,
+        x: ("joint", 0.5..joints as f64 + 0.5),
+        y: ("impact torque in N\u{b7}m", FLOOR..top),
+    };
+    let mut panel = bar_panel(area, pen, &axes)?;
+    let locked = &study.case(Method::PerJoint).failed_joints;
+    for (joint, before) in before.iter().enumerate() {
+        let after =
+            BARS.map(|(method, _, colour)| (study.case(method).impact_after[joint], colour));
+        let group = [(*before, GREY)].into_iter().chain(after);
+        for (i, (value, colour)) in group.enumerate() {
+            let left = joint as f64 + 0.62 + 0.19 * i as f64;
+            let bar = [(left, FLOOR), (left + 0.17, value.clamp(FLOOR * 1.06, top))];
+            panel.draw_series([Rectangle::new(bar, colour.filled())])?;
+        }
+        if locked.contains(&joint) {
+            let style = anchored(&pen.small(), HPos::Center, VPos::Bottom);
+            let at = (joint as f64 + 1.0, top / 1.7);
+            panel.draw_series([Text::new("locks", at, style)])?;
+        }
+    }
+    Ok(())
+}

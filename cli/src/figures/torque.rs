@@ -1,0 +1,155 @@
+//! Torques over time, without and with suppression: the paper's Figures 4 to 6.
+
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::prelude::DrawingBackend;
+use ulna::experiment::{Case, Method, Series, Study};
+
+use super::chart::{Axes, Key, legend, panel, range};
+use super::stroke::Stroke;
+use super::style::{BLUE, GREEN, GREY, ORANGE, Pen, VERMILION};
+use super::{Area, Drawn, Figure};
+
+const WITHOUT: Stroke = Stroke {
+    colour: GREY,
+    width: 2,
+    dash: None,
+};
+const RATED: Stroke = Stroke {
+    colour: VERMILION,
+    width: 1,
+    dash: Some((6, 4)),
+};
+const LOCK: Stroke = Stroke {
+    colour: GREY,
+    width: 1,
+    dash: Some((2, 3)),
+};
+/// The laws that are drawn over the torque without them.
+pub(super) const LAWS: [(Method, &str, Stroke); 3] = [
+    (
+        Method::Projected,
+        "Eq. 20 (force kept)",
+        Stroke {
+            colour: ORANGE,
+            width: 2,
+            dash: Some((9, 4)),
+        },
+    ),
+    (
+        Method::Optimal,
+        "optimal (force kept)",
+        Stroke {
+            colour: GREEN,
+            width: 2,
+            dash: Some((3, 3)),
+        },
+    ),
+    (
+        Method::PerJoint,
+        "Eq. 16 (force bent)",
+        Stroke {
+            colour: BLUE,
+            width: 2,
+            dash: None,
+        },
+    ),
+];
+
+/// For each of some joints: the torque over the whole motion, and beside it around the lock.
+pub(crate) struct Torques<'s> {
+    pub(crate) study: &'s Study,
+    /// Counted from 0.
+    pub(crate) joints: &'s [usize],
+    /// "N\u{b7}m", or "N" for a prismatic joint.
+    pub(crate) units: &'s [&'static str],
+}
+
+impl Figure for Torques<'_> {
+    fn size(&self) -> (u32, u32) {
+        (1000, 40 + 230 * self.joints.len().max(1) as u32)
+    }
+
+    fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
+        let (head, body) = area.split_vertically(pen.px(34));
+        let rated = self.study.case(Method::PerJoint).rated_torque.as_ref();
+        let mut entries = vec![(Key::Stroke(WITHOUT), "without suppression".to_owned())];
+        let laws = LAWS.iter().rev();
+        entries.extend(laws.map(|(_, label, stroke)| (Key::Stroke(*stroke), (*label).to_owned())));
+        if rated.is_some() {
+            entries.push((Key::Stroke(RATED), "rated torque".to_owned()));
+        }
+        legend(&head, pen, &entries)?;
+        let rows = body.split_evenly((self.joints.len(), 1));
+        for (row, joint) in rows.iter().zip(self.joints) {
+            let (whole, lock) =
+                row.split_horizontally((f64::from(row.dim_in_pixel().0) * 0.62) as u32);
+            self.joint(&whole, pen, *joint, None)?;
+            self.joint(&lock, pen, *joint, Some(0.5))?;
+        }
+        Ok(())
+    }
+}
+
+impl Torques<'_> {
+    /// One joint over the whole motion, or `within` so many seconds of the lock.
+    fn joint<DB: DrawingBackend>(
+        &self,
+        area: &Area<DB>,
+        pen: Pen,
+        joint: usize,
+        within: Option<f64>,
+    ) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
+        let lock = self.study.failure_time;
+        let seen = |time: f64| within.is_none_or(|within| (time - lock).abs() <= within);
+        let curve = |case: &Case, rows: fn(&Series) -> &Vec<Vec<f64>>| {
+            let series = &case.flight.series;
+            let points = series.time.iter().zip(rows(series));
+            let points = points.map(|(time, row)| (*time, row[joint]));
+            points.filter(|(time, _)| seen(*time)).collect::<Vec<_>>()
+        };
+        let planned = curve(self.study.case(Method::PerJoint), |series| &series.planned);
+        let curves: Vec<_> = LAWS
+            .iter()
+            .map(|(method, _, stroke)| {
+                (
+                    curve(self.study.case(*method), |series| &series.torque),
+                    *stroke,
+                )
+            })
+            .collect();
+        let rated = self.study.case(Method::PerJoint).rated_torque.as_ref();
+        let rated = rated
+            .map(|rated| rated[joint])
+            .filter(|rated| rated.is_finite() && within.is_none());
+
+        let all = || curves.iter().flat_map(|(points, _)| points).chain(&planned);
+        let limits = rated.into_iter().flat_map(|rated| [rated, -rated]);
+        let y = range(all().map(|point| point.1).chain(limits));
+        let x = match within {
+            Some(within) => lock - within..lock + within,
+            None => 0.0..all().map(|point| point.0).fold(lock, f64::max),
+        };
+        let title = match within {
+            Some(_) => format!("around the lock at {lock} s"),
+            None => format!("joint {}", joint + 1),
+        };
+        let mut panel = panel(
+            area,
+            pen,
+            &Axes {
+                title: &title,
+                x: ("time in s", x.clone()),
+                y: (&format!("torque in {}", self.units[joint]), y.clone()),
+            },
+        )?;
+        LOCK.curve(&mut panel, pen, &[(lock, y.start), (lock, y.end)])?;
+        for limit in rated.into_iter().flat_map(|rated| [rated, -rated]) {
+            RATED.curve(&mut panel, pen, &[(x.start, limit), (x.end, limit)])?;
+        }
+        WITHOUT.curve(&mut panel, pen, &planned)?;
+        for (points, stroke) in &curves {
+            stroke.curve(&mut panel, pen, points)?;
+        }
+        Ok(())
+    }
+}

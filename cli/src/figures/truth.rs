@@ -1,0 +1,195 @@
+//! The simulated lock beside the predicted one, and the limit of ever shorter brakes.
+
+use plotters::prelude::DrawingBackend;
+use ulna::experiment::{Method, Truth, TruthRun};
+
+use super::chart::{Axes, Key, double_log_panel, legend, panel, range};
+use super::stroke::CURVES;
+use super::stroke::Stroke;
+use super::style::{BLACK, BLUE, GREY, Marker, Pen, VERMILION};
+use super::{Area, Drawn, Figure};
+
+const PREDICTED: Stroke = Stroke {
+    colour: GREY,
+    width: 2,
+    dash: None,
+};
+const SIMULATED: Stroke = Stroke {
+    colour: BLACK,
+    width: 2,
+    dash: None,
+};
+const PREDICTED_EQ16: Stroke = Stroke {
+    colour: VERMILION,
+    width: 2,
+    dash: Some((3, 3)),
+};
+const SIMULATED_EQ16: Stroke = Stroke {
+    colour: BLUE,
+    width: 2,
+    dash: Some((9, 4)),
+};
+
+/// The torques of some joints around a lock, predicted and simulated.
+pub(crate) struct SimulatedTorques<'s> {
+    pub(crate) truth: &'s Truth,
+    /// Counted from 0.
+    pub(crate) joints: &'s [usize],
+    /// "N·m", or "N" for a prismatic joint.
+    pub(crate) units: &'s [&'static str],
+}
+
+impl Figure for SimulatedTorques<'_> {
+    fn size(&self) -> (u32, u32) {
+        (1000, 40 + 230 * self.joints.len().div_ceil(2).max(1) as u32)
+    }
+
+    fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
+        let (head, body) = area.split_vertically(pen.px(34));
+        let curves = self.curves();
+        let entries = curves
+            .iter()
+            .map(|(_, _, stroke, label)| (Key::Stroke(*stroke), (*label).to_owned()));
+        legend(&head, pen, &entries.collect::<Vec<_>>())?;
+        let areas = body.split_evenly((self.joints.len().div_ceil(2).max(1), 2));
+        for (area, joint) in areas.iter().zip(self.joints) {
+            let points: Vec<_> = curves
+                .iter()
+                .map(|(run, rows, stroke, _)| {
+                    let points = run
+                        .time
+                        .iter()
+                        .zip(rows(run))
+                        .map(|(time, row)| (*time, row[*joint]));
+                    (points.collect::<Vec<_>>(), *stroke)
+                })
+                .collect();
+            let all = || points.iter().flat_map(|(points, _)| points);
+            let time = range(all().map(|point| point.0));
+            let what = if self.truth.failed_joints.contains(joint) {
+                " (locks; brake and motor)"
+            } else {
+                ""
+            };
+            let title = format!("joint {}{what}", joint + 1);
+            let mut panel = panel(
+                area,
+                pen,
+                &Axes {
+                    title: &title,
+                    x: ("time in s", time),
+                    y: (
+                        &format!("torque in {}", self.units[*joint]),
+                        range(all().map(|point| point.1)),
+                    ),
+                },
+            )?;
+            for (points, stroke) in &points {
+                stroke.curve(&mut panel, pen, points)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A run, which of its rows, how they are drawn and what they are called.
+type Curve<'s> = (
+    &'s TruthRun,
+    fn(&TruthRun) -> &Vec<Vec<f64>>,
+    Stroke,
+    &'static str,
+);
+
+impl SimulatedTorques<'_> {
+    fn curves(&self) -> Vec<Curve<'_>> {
+        let run = |method| self.truth.runs.iter().find(|run| run.method == method);
+        let simulated: fn(&TruthRun) -> &Vec<Vec<f64>> = |run| &run.torque;
+        let predicted: fn(&TruthRun) -> &Vec<Vec<f64>> = |run| &run.predicted_torque;
+        let pairs = [
+            (
+                None,
+                [
+                    (simulated, SIMULATED, "simulated, without suppression"),
+                    (predicted, PREDICTED, "predicted, without suppression"),
+                ],
+            ),
+            (
+                Some(Method::PerJoint),
+                [
+                    (simulated, SIMULATED_EQ16, "simulated, Eq. 16"),
+                    (predicted, PREDICTED_EQ16, "predicted, Eq. 16"),
+                ],
+            ),
+        ];
+        let curves = pairs
+            .into_iter()
+            .filter_map(|(method, curves)| Some((run(method)?, curves)));
+        curves
+            .flat_map(|(run, curves)| {
+                curves.map(|(rows, stroke, label)| (run, rows, stroke, label))
+            })
+            .collect()
+    }
+}
+
+/// How the impulse of the brakes tends to that of the ideal lock.
+pub(crate) struct Convergence<'s> {
+    /// One for each failure time.
+    pub(crate) truths: &'s [Truth],
+}
+
+impl Figure for Convergence<'_> {
+    fn size(&self) -> (u32, u32) {
+        (700, 460)
+    }
+
+    fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
+        let (head, body) = area.split_vertically(pen.px(34));
+        let curves = || self.truths.iter().zip(CURVES.into_iter().cycle());
+        let entries = curves().map(|(truth, stroke)| {
+            (
+                Key::Stroke(stroke),
+                format!("lock at {} s", truth.failure_time),
+            )
+        });
+        legend(&head, pen, &entries.collect::<Vec<_>>())?;
+        let points = |truth: &Truth| {
+            let points = truth
+                .convergence
+                .iter()
+                .map(|point| (point.brake_time, point.relative_difference));
+            points
+                .filter(|(_, difference)| *difference > 0.0)
+                .collect::<Vec<_>>()
+        };
+        let all: Vec<_> = self.truths.iter().flat_map(points).collect();
+        let span = |values: &mut dyn Iterator<Item = f64>| {
+            let (least, most) = values.fold((1.0_f64, 1e-12_f64), |(least, most), value| {
+                (least.min(value), most.max(value))
+            });
+            least / 2.0..most.max(least) * 2.0
+        };
+        let mut panel = double_log_panel(
+            &body,
+            pen,
+            &Axes {
+                title: "ever shorter brakes",
+                x: (
+                    "brake time in s",
+                    span(&mut all.iter().map(|point| point.0)),
+                ),
+                y: (
+                    "impulse of the brakes: relative difference from the ideal lock",
+                    span(&mut all.iter().map(|point| point.1)),
+                ),
+            },
+        )?;
+        for (truth, stroke) in curves() {
+            stroke.curve(&mut panel, pen, &points(truth))?;
+            for point in points(truth) {
+                Marker::Circle.draw(panel.plotting_area(), pen, point, stroke.colour)?;
+            }
+        }
+        Ok(())
+    }
+}

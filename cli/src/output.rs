@@ -1,0 +1,51 @@
+//! Files, written whole or not at all.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+
+/// Writes `bytes` under another name first, so that `path` is never half of them.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        // Like any new file, and not only for its owner; the umask applies.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(bytes)?;
+    file.persist(path)?;
+    Ok(())
+}
+
+/// The files of a folder before they are written: what fails on the way leaves nothing behind.
+#[derive(Default)]
+pub(crate) struct Files(Vec<(PathBuf, Vec<u8>)>);
+
+impl Files {
+    /// Adds a file; `name` may have folders in it.
+    pub(crate) fn add(&mut self, name: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) {
+        self.0.push((name.into(), bytes.into()));
+    }
+
+    /// Writes all of them into `folder`, which is made if need be, and returns their paths.
+    pub(crate) fn write_to(self, folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+        let write = |(name, bytes): (PathBuf, Vec<u8>)| {
+            let path = folder.join(name);
+            let parent = path.parent().unwrap_or(folder);
+            fs::create_dir_all(parent)
+                .with_context(|| format!("cannot make the folder {}", parent.display()))?;
+            write_whole(&path, &bytes)
+                .with_context(|| format!("cannot write {}", path.display()))?;
+            Ok(path)
+        };
+        self.0.into_iter().map(write).collect()
+    }
+}
