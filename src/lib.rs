@@ -15,6 +15,7 @@ pub mod generic;
 pub mod model;
 pub mod null_space;
 pub mod proof;
+mod random;
 pub mod real;
 #[cfg(feature = "table")]
 pub mod scenario;

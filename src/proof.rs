@@ -8,6 +8,7 @@ use core::fmt;
 
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 
+use crate::random::SplitMix64;
 use crate::{Arm, JointKind, SerialChain};
 
 /// A configuration of an arm, its motion, and its motors' torques.
@@ -26,23 +27,15 @@ pub struct State<const N: usize> {
 /// Random states of `chain` without end, always the same ones: revolute joints in [−π, π] rad, prismatic ones in [−1, 1] m,
 /// rates, accelerations and torques in [−1, 1].
 ///
-/// The generator is `SplitMix64` (Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014) from seed 0.
+/// The generator is `SplitMix64` from seed 0.
 pub fn states<const N: usize>(chain: &SerialChain<N>) -> impl Iterator<Item = State<N>> + use<N> {
     let range = SVector::from_fn(|i, _| match chain.joints[i].kind {
         JointKind::Revolute => PI,
         JointKind::Prismatic => 1.0,
     });
-    let mut seed = 0_u64;
-    let mut unit = move || {
-        seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = seed;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^= bits >> 31;
-        (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
+    let mut random = SplitMix64::new(0);
     core::iter::repeat_with(move || {
-        let mut vector = || SVector::<f64, N>::from_fn(|_, _| unit());
+        let mut vector = || SVector::<f64, N>::from_fn(|_, _| random.symmetric());
         State {
             q: vector().component_mul(&range),
             qd: vector(),

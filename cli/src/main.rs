@@ -3,6 +3,7 @@
 //! Exit codes: 0, or 1 for what is wrong with the input or with what was checked, or 2 for a wrong command line.
 
 mod arms;
+mod campaign;
 mod check;
 mod console;
 mod cost;
@@ -34,6 +35,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Reproduce(reproduce::Arguments),
+    Campaign(campaign::Arguments),
     Check(check::Arguments),
     Generate(generate::Arguments),
     Verify(verify::Arguments),
@@ -53,6 +55,7 @@ impl Command {
     fn run(self, out: &mut dyn Write) -> anyhow::Result<Verdict> {
         match self {
             Self::Reproduce(arguments) => reproduce::run(&arguments, out),
+            Self::Campaign(arguments) => campaign::run(&arguments, out),
             Self::Check(arguments) => check::run(&arguments, out),
             Self::Generate(arguments) => generate::run(&arguments, out),
             Self::Verify(arguments) => verify::run(&arguments, out),

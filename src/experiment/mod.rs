@@ -4,6 +4,7 @@
 //! ever shorter control cycles; extremes and series are those of a [`Controller`] that flies the whole motion cycle by cycle.
 //! Results carry plain lists, one entry for each joint, so that tables and figures need not know how many there are.
 
+mod campaign;
 mod flight;
 mod truth;
 
@@ -18,6 +19,7 @@ use crate::search::{
 };
 use crate::simulation::{Ending, SimulationError};
 use crate::{Arm, Law};
+pub use campaign::{Campaign, CampaignCase, CampaignOutcome};
 pub use flight::{Flight, Series};
 pub use truth::{BrakeImpulse, Truth, TruthRun};
 
@@ -271,18 +273,11 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
         };
         let options = OperationOptions {
             sample_period: self.scenario.cycle,
-            rated_torque: Self::rated_torque(experiment),
+            rated_torque: rated_torque(experiment),
             ..OperationOptions::default()
         };
         let force = |time| experiment.force.at(time);
         Operation::new(self.arm, &self.motion, force, &failure, &options)
-    }
-
-    /// Infinite where there is no limit.
-    fn rated_torque(experiment: &Experiment) -> SVector<f64, N> {
-        let rated = experiment.rated_torque.as_deref();
-        let rated = rated.and_then(|rated| <[f64; N]>::try_from(rated).ok());
-        rated.map_or(SVector::repeat(f64::INFINITY), SVector::from)
     }
 
     fn case(&self, experiment: &Experiment, operation: &Operation<N>, method: Method) -> Case {
@@ -369,6 +364,13 @@ fn tradeoff<const N: usize>(
     Ok(Tradeoff {
         frontier: up_to(enough.map_or(most, |point| point.0))?,
     })
+}
+
+/// Infinite where there is no limit.
+fn rated_torque<const N: usize>(experiment: &Experiment) -> SVector<f64, N> {
+    let rated = experiment.rated_torque.as_deref();
+    let rated = rated.and_then(|rated| <[f64; N]>::try_from(rated).ok());
+    rated.map_or(SVector::repeat(f64::INFINITY), SVector::from)
 }
 
 fn list<const N: usize>(vector: &SVector<f64, N>) -> Vec<f64> {

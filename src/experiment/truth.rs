@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use nalgebra::SVector;
 
-use super::{ExperimentError, Laboratory, Method, list};
+use super::{ExperimentError, Laboratory, Method, list, rated_torque};
 use crate::compensation::{Compensation, Controller};
 use crate::failure::{Failure, LockedJoints};
 use crate::scenario::Experiment;
@@ -209,7 +209,7 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
         experiment: &Experiment,
         compensation: Compensation<N>,
     ) -> Controller<'_, A, N> {
-        Controller::new(self.arm, compensation).with_rated_torque(Self::rated_torque(experiment))
+        Controller::new(self.arm, compensation).with_rated_torque(rated_torque(experiment))
     }
 
     fn simulate(

@@ -54,6 +54,17 @@ pub(super) fn bar_panel<'a, DB: DrawingBackend>(
     with_coordinates(area, pen, axes, (x, ticks), (y, 6))
 }
 
+/// An empty panel with a tick at each whole number of its vertical axis.
+pub(super) fn grid_panel<'a, DB: DrawingBackend>(
+    area: &'a Area<DB>,
+    pen: Pen,
+    axes: &Axes<'_>,
+) -> Built<'a, DB, RangedCoordf64, RangedCoordf64> {
+    let (x, y) = (axes.x.1.clone(), axes.y.1.clone());
+    let ticks = (axes.y.1.end - axes.y.1.start) as usize + 1;
+    with_coordinates(area, pen, axes, (x, 7), (y, ticks))
+}
+
 /// An empty panel with two logarithmic axes.
 pub(super) fn double_log_panel<'a, DB: DrawingBackend>(
     area: &'a Area<DB>,

@@ -1,6 +1,7 @@
 //! Figures: each is drawn once and comes out as SVG and as PNG, alike.
 
 mod chart;
+mod heat_map;
 mod impact;
 mod stroke;
 mod style;
@@ -15,6 +16,7 @@ use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
 use plotters::style::{FontStyle, WHITE};
 
+pub(crate) use heat_map::HeatMap;
 pub(crate) use impact::Impacts;
 use style::Pen;
 pub(crate) use torque::Torques;

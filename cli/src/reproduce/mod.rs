@@ -25,7 +25,9 @@ const OUTPUT: &str = "out";
 
 /// Repeat the paper's experiments: its tables beside ours, figures, series and results.json
 #[derive(Args)]
-#[command(after_help = "Example:\n  ulna reproduce scenarios/paper_like.toml --output out")]
+#[command(
+    after_help = "Example:\n  ulna reproduce scenarios/paper_like.toml --output target/reproduce"
+)]
 pub(crate) struct Arguments {
     /// The experiments (TOML); without it the paper's, as far as they can be repeated
     scenario: Option<PathBuf>,

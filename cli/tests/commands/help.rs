@@ -16,12 +16,20 @@ fn examples(command: &str) -> Vec<String> {
 
 #[test]
 fn every_example_of_a_quick_command_works() {
-    for command in ["check", "generate", "verify", "cost"] {
+    for command in ["check", "generate", "verify", "cost", "campaign"] {
         let examples = examples(command);
         assert!(!examples.is_empty(), "{command}");
         for example in examples {
             assert!(example.starts_with(command), "{example}");
             ulna(&example.split(' ').collect::<Vec<_>>()).code(0);
         }
+    }
+}
+
+/// A scenario takes its time without optimization: its example runs beside the others.
+#[test]
+fn the_example_of_reproduce_works() {
+    for example in examples("reproduce") {
+        ulna(&example.split(' ').collect::<Vec<_>>()).code(0);
     }
 }

@@ -1,0 +1,124 @@
+//! `ulna campaign`: a scenario with every joint failing at many times, varied at random.
+
+mod file;
+
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::Context;
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use ulna::experiment::Campaign;
+use ulna::{Arm, Scenario};
+
+use crate::arms::{ForArm, GENERATED, with_arm};
+use crate::figures::{self, HeatMap};
+use crate::output::Files;
+use crate::{Verdict, console};
+pub(crate) use file::Row;
+use file::{CampaignFile, row};
+
+/// Vary a scenario: every joint, a grid of failure times, random starts, goals and forces
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  ulna campaign scenarios/paper_like.toml --cases 280 --output target/campaign\n\n\
+    Interrupted, it goes on where it stopped when it is called again. The result does not depend on the number of threads."
+)]
+pub(crate) struct Arguments {
+    /// The scenario (TOML); its first experiment's rated torques are kept
+    scenario: PathBuf,
+    /// How many cases; without it as many as the scenario says
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    cases: Option<u64>,
+    /// The seed of all random numbers; without it the scenario's
+    #[arg(long, value_name = "SEED")]
+    seed: Option<u64>,
+    /// How many threads; without it one for each core
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    /// Where campaign.csv and the figures go
+    #[arg(long, short, value_name = "DIR", default_value = "out")]
+    output: PathBuf,
+}
+
+pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
+    let mut scenario = Scenario::load(&arguments.scenario, GENERATED)?;
+    scenario.campaign.cases = arguments.cases.unwrap_or(scenario.campaign.cases);
+    scenario.campaign.seed = arguments.seed.unwrap_or(scenario.campaign.seed);
+    let threads = arguments.threads.map_or(0, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()?;
+    let folder = &arguments.output;
+    let work = Work {
+        scenario: &scenario,
+        arguments,
+    };
+    let rows = pool.install(|| with_arm(&scenario.arm, work))??;
+
+    let map = HeatMap::new(&rows, scenario.arm.joints().len());
+    writeln!(out, "{}", map.summary(&scenario))?;
+    let mut files = Files::default();
+    files.add("figures/campaign.svg", figures::svg(&map)?);
+    files.add("figures/campaign.png", figures::png(&map)?);
+    for path in files.write_to(folder)? {
+        console::note(&format!("wrote {}", path.display()));
+    }
+    Ok(Verdict::Pass)
+}
+
+/// All rows of the campaign, found in the file or made.
+struct Work<'s> {
+    scenario: &'s Scenario,
+    arguments: &'s Arguments,
+}
+
+impl ForArm for Work<'_> {
+    type Output = anyhow::Result<Vec<Row>>;
+
+    fn run<A: Arm<N> + Sync, const N: usize>(self, arm: &A) -> Self::Output {
+        /// So many cases are made before they are written.
+        const CHUNK: u64 = 500;
+        let campaign = Campaign::new(arm, self.scenario)?;
+        let folder = &self.arguments.output;
+        fs::create_dir_all(folder)
+            .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+        let cases = self.scenario.campaign.cases;
+        let mut file = CampaignFile::open(folder, cases, |index| row(&campaign.case(index)))?;
+        let found = file.rows();
+        if found > 0 {
+            console::note(&format!(
+                "{found} of {cases} cases are in {} already",
+                file.path().display()
+            ));
+        }
+        let clock = Instant::now();
+        let bar = ProgressBar::new(cases).with_position(found);
+        bar.set_style(ProgressStyle::with_template(
+            "{bar:40} {pos}/{len} cases, {per_sec}, {eta} left",
+        )?);
+        for start in (found..cases).step_by(CHUNK as usize) {
+            let chunk = start..(start + CHUNK).min(cases);
+            // In order of the number, whatever thread made them.
+            let rows = chunk.into_par_iter().map(|index| {
+                let row = row(&campaign.case(index));
+                bar.inc(1);
+                row
+            });
+            file.append(&rows.collect::<Vec<_>>())?;
+        }
+        bar.finish_and_clear();
+        let made = cases - found;
+        if made > 0 {
+            let seconds = clock.elapsed().as_secs_f64();
+            console::note(&format!(
+                "{made} cases in {seconds:.1} s: {:.0} a second",
+                made as f64 / seconds
+            ));
+        }
+        file.finish()
+    }
+}
