@@ -61,24 +61,50 @@ pub trait BatchCall {
 #[inline]
 pub fn run<C: Call>(call: C) -> C::Output {
     #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma")))]
-    if has_avx2() {
-        // SAFETY: the processor has both.
-        return unsafe { run_fused(call) };
-    }
-    call.run::<f64>()
+    return run_on(has_avx2(), call);
+    #[cfg(not(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma"))))]
+    return call.run::<f64>();
 }
 
 /// Runs `call` on the widest lanes of the machine.
 pub fn run_batch<C: BatchCall>(call: C) {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512dq") {
+    return run_batch_on(has_avx512(), has_avx2(), call);
+    #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
+    return call.run::<wide::f64x4>();
+}
+
+// The processor is asked elsewhere: while a function holds a call and something else might unwind, the compiler puts a
+// clean-up around all that it inlines there, at a cost that grows with the square of a kernel's length (dev profile).
+
+#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma")))]
+#[inline]
+fn run_on<C: Call>(has_avx2: bool, call: C) -> C::Output {
+    if has_avx2 {
         // SAFETY: the processor has both.
-        return unsafe { run_avx512(call) };
-    } else if has_avx2() {
-        // SAFETY: the processor has both.
-        return unsafe { run_avx2(call) };
+        unsafe { run_fused(call) }
+    } else {
+        call.run::<f64>()
     }
-    call.run::<wide::f64x4>();
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+fn run_batch_on<C: BatchCall>(has_avx512: bool, has_avx2: bool, call: C) {
+    if has_avx512 {
+        // SAFETY: the processor has both.
+        unsafe { run_avx512(call) }
+    } else if has_avx2 {
+        // SAFETY: the processor has both.
+        unsafe { run_avx2(call) }
+    } else {
+        call.run::<wide::f64x4>();
+    }
+}
+
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+#[inline]
+fn has_avx512() -> bool {
+    std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512dq")
 }
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
