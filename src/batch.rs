@@ -1,26 +1,27 @@
 //! [`ArmBatch`]: every method of [`Arm`] for many states at once, in lanes.
 
 use core::marker::PhantomData;
+use core::slice;
 
+use bytemuck::cast_slice_mut;
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 
-use crate::simd::{self, BatchCall, Lanes, MAX_WIDTH};
-use crate::unrolled::{Margins, coordinate, is_singular};
+use crate::simd::{self, BLOCK, BatchCall, Lanes, MAX_WIDTH};
+use crate::unrolled::{Margins, are_plain, coordinates, is_singular};
 use crate::{Arm, SerialChain, Unrolled};
 
-/// A result of a method, filled element by element in the order in which a kernel returns them.
+/// A result of a method, in parts as a kernel returns them, each of numbers in a row.
 trait Slots {
-    /// Puts the `index`-th number.
-    fn put(&mut self, index: usize, value: f64);
+    /// Where the numbers of a part go.
+    fn part(&mut self, part: usize) -> &mut [f64];
 
     /// What the method returns where the task is singular, if it has a part of w_D.
     fn settle(&mut self) {}
 }
 
 impl Slots for f64 {
-    #[inline(always)]
-    fn put(&mut self, _: usize, value: f64) {
-        *self = value;
+    fn part(&mut self, _: usize) -> &mut [f64] {
+        slice::from_mut(self)
     }
 
     fn settle(&mut self) {
@@ -29,35 +30,31 @@ impl Slots for f64 {
 }
 
 impl<const R: usize, const C: usize> Slots for SMatrix<f64, R, C> {
-    #[inline(always)]
-    fn put(&mut self, index: usize, value: f64) {
-        self.data.0[index / R][index % R] = value;
+    fn part(&mut self, _: usize) -> &mut [f64] {
+        self.as_mut_slice()
     }
 }
 
 impl<const R: usize, const C: usize, const K: usize> Slots for [SMatrix<f64, R, C>; K] {
-    #[inline(always)]
-    fn put(&mut self, index: usize, value: f64) {
-        self[index / (R * C)].put(index % (R * C), value);
+    fn part(&mut self, _: usize) -> &mut [f64] {
+        cast_slice_mut(self)
     }
 }
 
 impl Slots for IsometryMatrix3<f64> {
-    #[inline(always)]
-    fn put(&mut self, index: usize, value: f64) {
-        match index {
-            0..9 => self.rotation.matrix_mut_unchecked().put(index, value),
-            _ => self.translation.vector[index - 9] = value,
+    fn part(&mut self, part: usize) -> &mut [f64] {
+        match part {
+            0 => self.rotation.matrix_mut_unchecked().as_mut_slice(),
+            _ => self.translation.vector.as_mut_slice(),
         }
     }
 }
 
 impl<const N: usize> Slots for (f64, SVector<f64, N>) {
-    #[inline(always)]
-    fn put(&mut self, index: usize, value: f64) {
-        match index {
-            0 => self.0 = value,
-            _ => self.1[index - 1] = value,
+    fn part(&mut self, part: usize) -> &mut [f64] {
+        match part {
+            0 => slice::from_mut(&mut self.0),
+            _ => self.1.as_mut_slice(),
         }
     }
 
@@ -67,22 +64,20 @@ impl<const N: usize> Slots for (f64, SVector<f64, N>) {
 }
 
 impl<const N: usize> Slots for (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) {
-    #[inline(always)]
-    fn put(&mut self, index: usize, value: f64) {
-        match index.checked_sub(N * N) {
-            None => self.0.put(index, value),
-            Some(index) => self.1.put(index, value),
+    fn part(&mut self, part: usize) -> &mut [f64] {
+        match part {
+            0 => self.0.as_mut_slice(),
+            _ => cast_slice_mut(&mut self.1),
         }
     }
 }
 
 impl<const N: usize> Slots for (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
-    #[inline(always)]
-    fn put(&mut self, index: usize, value: f64) {
-        match index.checked_sub(6 * N) {
-            None => self.0.put(index, value),
-            Some(0) => self.1 = value,
-            Some(index) => self.2[index - 1] = value,
+    fn part(&mut self, part: usize) -> &mut [f64] {
+        match part {
+            0 => self.0.as_mut_slice(),
+            1 => slice::from_mut(&mut self.1),
+            _ => self.2.as_mut_slice(),
         }
     }
 
@@ -92,58 +87,92 @@ impl<const N: usize> Slots for (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
     }
 }
 
-/// What a kernel returns on lanes `R`, to be handed out number by number.
+/// A part of what a kernel returns on lanes `R`.
 trait Numbers<R> {
-    /// Puts the numbers into the results of the lanes, the first number at `index`; returns the next index.
-    fn scatter<T: Slots>(&self, index: usize, out: &mut [T]) -> usize;
+    /// Its numbers in a row.
+    fn numbers(&self) -> &[R];
 }
 
 impl<R: Lanes> Numbers<R> for R {
     #[inline(always)]
-    fn scatter<T: Slots>(&self, index: usize, out: &mut [T]) -> usize {
-        for (result, number) in out.iter_mut().zip(self.store()) {
-            result.put(index, number);
-        }
-        index + 1
+    fn numbers(&self) -> &[R] {
+        slice::from_ref(self)
     }
 }
 
-impl<R: Lanes, T: Numbers<R>, const K: usize> Numbers<R> for [T; K] {
+impl<R: Lanes, const K: usize> Numbers<R> for [R; K] {
     #[inline(always)]
-    fn scatter<S: Slots>(&self, mut index: usize, out: &mut [S]) -> usize {
-        for item in self {
-            index = item.scatter(index, out);
-        }
-        index
+    fn numbers(&self) -> &[R] {
+        self
     }
 }
 
-/// Two results one after the other.
-impl<R: Lanes, A: Numbers<R>, B: Numbers<R>> Numbers<R> for (A, B) {
+impl<R: Lanes, const K: usize, const L: usize> Numbers<R> for [[R; K]; L] {
     #[inline(always)]
-    fn scatter<T: Slots>(&self, index: usize, out: &mut [T]) -> usize {
-        let next = self.0.scatter(index, out);
-        self.1.scatter(next, out)
+    fn numbers(&self) -> &[R] {
+        self.as_flattened()
     }
 }
 
-/// The lanes of joint vectors from `start` on, read by `read`; the last vector repeats where there are too few.
+impl<R: Lanes, const K: usize, const L: usize, const M: usize> Numbers<R> for [[[R; K]; L]; M] {
+    #[inline(always)]
+    fn numbers(&self) -> &[R] {
+        self.as_flattened().as_flattened()
+    }
+}
+
+/// Gives each lane's result its numbers of a part.
 #[inline(always)]
-fn gather<R: Lanes, const N: usize>(
-    vectors: &[SVector<f64, N>],
-    start: usize,
-    read: impl Fn(usize, f64) -> f64,
-) -> [R; N] {
+fn scatter<R: Lanes, T: Slots>(numbers: &[R], part: usize, out: &mut [T]) {
+    let (blocks, rest) = numbers.as_chunks::<BLOCK>();
+    let mut start = 0;
+    for block in blocks {
+        let rows = R::transpose(block);
+        for (result, row) in out.iter_mut().zip(&rows) {
+            result.part(part)[start..][..BLOCK].copy_from_slice(row);
+        }
+        start += BLOCK;
+    }
+    if !rest.is_empty() {
+        let mut block = [rest[0]; BLOCK];
+        block[..rest.len()].copy_from_slice(rest);
+        let rows = R::transpose(&block);
+        for (result, row) in out.iter_mut().zip(&rows) {
+            result.part(part)[start..].copy_from_slice(&row[..rest.len()]);
+        }
+    }
+}
+
+/// The lanes of at most as many vectors; the last one repeats where there are fewer.
+#[inline(always)]
+fn gather<R: Lanes, const N: usize>(vectors: &[SVector<f64, N>]) -> [R; N] {
     let last = vectors.len() - 1;
     let mut lanes = [R::of(0.0); N];
     for (joint, lanes) in lanes.iter_mut().enumerate() {
         let mut numbers = [0.0; MAX_WIDTH];
         for (lane, number) in numbers[..R::WIDTH].iter_mut().enumerate() {
-            *number = read(joint, vectors[(start + lane).min(last)][joint]);
+            *number = vectors[lane.min(last)][joint];
         }
         *lanes = R::load(&numbers);
     }
     lanes
+}
+
+/// As [`gather`], of joint coordinates.
+#[inline(always)]
+fn gather_coordinates<A: Unrolled<N>, R: Lanes, const N: usize>(q: &[SVector<f64, N>]) -> [R; N] {
+    let mut all_plain = true;
+    for q in q {
+        all_plain &= are_plain(&q.data.0[0]);
+    }
+    if all_plain {
+        return gather(q);
+    }
+    let mut safe = [SVector::zeros(); MAX_WIDTH];
+    for (safe, q) in safe.iter_mut().zip(q) {
+        *safe = coordinates(&A::CHAIN, &q.data.0[0]).into();
+    }
+    gather(&safe[..q.len()])
 }
 
 /// Sets right what the singular ones among the lanes have.
@@ -165,9 +194,9 @@ fn settle<R: Lanes, T: Slots>(margins: &Margins<R>, out: &mut [T]) {
 }
 
 /// Every method: its name in a batch, its own, the first argument `q` and the others, the result, the kernel,
-/// and what of the kernel's returns are the numbers and, of w_D, the margins.
+/// and what of the kernel's returns are the result's parts and, of w_D, the margins.
 macro_rules! methods {
-    ($($batch:ident $method:ident(q $(, $other:ident)*) -> $output:ty = $kernel:ident |$result:pat_param| $numbers:expr $(, $margins:ident)?;)+) => {
+    ($($batch:ident $method:ident(q $(, $other:ident)*) -> $output:ty = $kernel:ident |$result:pat_param| ($($part:ident),+) $(, $margins:ident)?;)+) => {
         /// An arm that computes many states at once.
         ///
         /// Each method writes as many results as both the states and `out` have room for; lengths may be anything.
@@ -206,13 +235,15 @@ macro_rules! methods {
                     impl<A: Unrolled<N>, const N: usize> BatchCall for Run<'_, A, N> {
                         #[inline(always)]
                         fn run<R: Lanes>(self) {
-                            let read = |joint: usize, q| coordinate(A::CHAIN.joints[joint].kind, q);
                             for (chunk, out) in self.out.chunks_mut(R::WIDTH).enumerate() {
-                                let start = chunk * R::WIDTH;
-                                let q = gather::<R, N>(self.q, start, read);
-                                $(let $other = gather::<R, N>(self.$other, start, |_, x| x);)*
+                                let states = chunk * R::WIDTH..chunk * R::WIDTH + out.len();
+                                let q = gather_coordinates::<A, R, N>(&self.q[states.clone()]);
+                                $(let $other = gather::<R, N>(&self.$other[states.clone()]);)*
                                 let $result = A::$kernel::<R>(&q $(, &$other)*);
-                                Numbers::<R>::scatter(&$numbers, 0, out);
+                                let parts = [$(Numbers::<R>::numbers(&$part)),+];
+                                for (part, numbers) in parts.into_iter().enumerate() {
+                                    scatter(numbers, part, out);
+                                }
                                 $(settle(&$margins, out);)?
                             }
                         }
@@ -230,19 +261,19 @@ macro_rules! methods {
 
 #[rustfmt::skip]
 methods! {
-    forward_kinematics_batch forward_kinematics(q) -> IsometryMatrix3<f64> = forward_kinematics_kernel |all| all;
-    geometric_jacobian_batch geometric_jacobian(q) -> SMatrix<f64, 6, N> = geometric_jacobian_kernel |all| all;
-    jacobian_derivatives_batch jacobian_derivatives(q) -> [SMatrix<f64, 6, N>; N] = jacobian_derivatives_kernel |all| all;
-    mass_matrix_batch mass_matrix(q) -> SMatrix<f64, N, N> = mass_matrix_kernel |all| all;
-    mass_matrix_derivatives_batch mass_matrix_derivatives(q) -> [SMatrix<f64, N, N>; N] = mass_matrix_derivatives_kernel |all| all;
-    dynamic_manipulability_batch dynamic_manipulability(q) -> f64 = dynamic_manipulability_kernel |(value, margins)| value, margins;
+    forward_kinematics_batch forward_kinematics(q) -> IsometryMatrix3<f64> = forward_kinematics_kernel |(rotation, translation)| (rotation, translation);
+    geometric_jacobian_batch geometric_jacobian(q) -> SMatrix<f64, 6, N> = geometric_jacobian_kernel |all| (all);
+    jacobian_derivatives_batch jacobian_derivatives(q) -> [SMatrix<f64, 6, N>; N] = jacobian_derivatives_kernel |all| (all);
+    mass_matrix_batch mass_matrix(q) -> SMatrix<f64, N, N> = mass_matrix_kernel |all| (all);
+    mass_matrix_derivatives_batch mass_matrix_derivatives(q) -> [SMatrix<f64, N, N>; N] = mass_matrix_derivatives_kernel |all| (all);
+    dynamic_manipulability_batch dynamic_manipulability(q) -> f64 = dynamic_manipulability_kernel |(value, margins)| (value), margins;
     dynamic_manipulability_gradient_batch dynamic_manipulability_gradient(q) -> (f64, SVector<f64, N>) = dynamic_manipulability_gradient_kernel |(value, gradient, margins)| (value, gradient), margins;
-    inverse_dynamics_batch inverse_dynamics(q, qd, qdd) -> SVector<f64, N> = inverse_dynamics_kernel |all| all;
-    bias_force_batch bias_force(q, qd) -> SVector<f64, N> = bias_force_kernel |all| all;
-    gravity_torque_batch gravity_torque(q) -> SVector<f64, N> = gravity_torque_kernel |all| all;
-    forward_dynamics_batch forward_dynamics(q, qd, tau) -> SVector<f64, N> = forward_dynamics_kernel |all| all;
-    mass_matrix_and_derivatives_batch mass_matrix_and_derivatives(q) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) = mass_matrix_and_derivatives_kernel |all| all;
-    jacobian_and_gradient_batch jacobian_and_gradient(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) = jacobian_and_gradient_kernel |(jacobian, value, gradient, margins)| (jacobian, (value, gradient)), margins;
+    inverse_dynamics_batch inverse_dynamics(q, qd, qdd) -> SVector<f64, N> = inverse_dynamics_kernel |all| (all);
+    bias_force_batch bias_force(q, qd) -> SVector<f64, N> = bias_force_kernel |all| (all);
+    gravity_torque_batch gravity_torque(q) -> SVector<f64, N> = gravity_torque_kernel |all| (all);
+    forward_dynamics_batch forward_dynamics(q, qd, tau) -> SVector<f64, N> = forward_dynamics_kernel |all| (all);
+    mass_matrix_and_derivatives_batch mass_matrix_and_derivatives(q) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) = mass_matrix_and_derivatives_kernel |(mass, derivatives)| (mass, derivatives);
+    jacobian_and_gradient_batch jacobian_and_gradient(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) = jacobian_and_gradient_kernel |(jacobian, value, gradient, margins)| (jacobian, value, gradient), margins;
 }
 
 /// Runs `batch` on chunks of the states in parallel: `in_parallel(&q, &mut out, |q, out| arm.mass_matrix_batch(q, out))`.

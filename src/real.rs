@@ -119,13 +119,16 @@ pub fn prismatic_offset(q: f64) -> f64 {
     q.clamp(-PRISMATIC_LIMIT, PRISMATIC_LIMIT)
 }
 
-/// A revolute joint's coordinate as generated code reads it: beyond 2²⁰ rad, the same angle within ±π.
+/// Up to here coordinates, rad or m, are read as they are by [`revolute_angle`] and [`prismatic_offset`].
+pub const PLAIN_LIMIT: f64 = 1_048_576.0;
+
+/// A revolute joint's coordinate as generated code reads it: beyond [`PLAIN_LIMIT`], the same angle within ±π.
 ///
 /// Generated code adds angles of parallel joints before it takes their sine; of huge angles the sum would be rounded
 /// coarsely, or overflow. The sine and cosine of the angle itself are exact however large it is.
 #[inline]
 pub fn revolute_angle(q: f64) -> f64 {
-    if q.abs() <= 1_048_576.0 {
+    if q.abs() <= PLAIN_LIMIT {
         q
     } else {
         let (sin, cos) = Real::sin_cos(q);

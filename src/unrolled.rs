@@ -1,6 +1,6 @@
 //! [`Unrolled`]: the arithmetic of an arm on any scalar, as generated code provides it; and what makes an [`Arm`](crate::Arm) of it.
 
-pub use crate::real::{prismatic_offset, revolute_angle};
+pub use crate::real::{PLAIN_LIMIT, prismatic_offset, revolute_angle};
 use crate::{JointKind, Real, SerialChain};
 
 /// The squared distance of a row of H from the span of those before, relative to the longest row's squared length,
@@ -59,19 +59,23 @@ pub trait Unrolled<const N: usize> {
     fn jacobian_and_gradient_kernel<R: Real>(q: &[R; N]) -> ([[R; 6]; N], R, [R; N], Margins<R>);
 }
 
-/// Joint coordinates as kernels read them: finite results for every finite coordinate.
-#[inline]
-pub fn coordinates<const N: usize>(chain: &SerialChain<N>, q: &[f64; N]) -> [f64; N] {
-    core::array::from_fn(|i| coordinate(chain.joints[i].kind, q[i]))
+/// Whether kernels may read the joint coordinates as they are: true but for absurd ones.
+#[inline(always)]
+pub fn are_plain<const N: usize>(q: &[f64; N]) -> bool {
+    let mut all = true;
+    for q in q {
+        all &= q.abs() <= PLAIN_LIMIT;
+    }
+    all
 }
 
-/// A joint coordinate as kernels read it.
-#[inline]
-pub fn coordinate(kind: JointKind, q: f64) -> f64 {
-    match kind {
-        JointKind::Revolute => revolute_angle(q),
-        JointKind::Prismatic => prismatic_offset(q),
-    }
+/// Joint coordinates as kernels read them: finite results for every finite coordinate.
+#[cold]
+pub fn coordinates<const N: usize>(chain: &SerialChain<N>, q: &[f64; N]) -> [f64; N] {
+    core::array::from_fn(|i| match chain.joints[i].kind {
+        JointKind::Revolute => revolute_angle(q[i]),
+        JointKind::Prismatic => prismatic_offset(q[i]),
+    })
 }
 
 /// Whether w_D counts as 0: Eq. 23 would divide by it.
@@ -84,18 +88,19 @@ pub fn is_singular(margins: &Margins<f64>) -> bool {
         .all(|distance| *distance > ROUNDING * longest)
 }
 
-/// Runs a kernel on the best scalar of the machine: `on_machine!(A, N, kernel(arguments) -> output)`.
+/// Runs a kernel on the best scalar of the machine: `on_machine!(A, N, kernel(arguments) -> output)`, arguments as arrays
+/// by reference.
 macro_rules! on_machine {
     ($arm:ident, $n:ident, $kernel:ident($($argument:ident),+) -> $output:ty) => {{
-        struct Run<$arm, const $n: usize> {
-            $($argument: [f64; $n],)+
+        struct Run<'a, $arm, const $n: usize> {
+            $($argument: &'a [f64; $n],)+
             arm: PhantomData<$arm>,
         }
-        impl<$arm: Unrolled<$n>, const $n: usize> Call for Run<$arm, $n> {
+        impl<$arm: Unrolled<$n>, const $n: usize> Call for Run<'_, $arm, $n> {
             type Output = $output;
             #[inline(always)]
             fn run<R: Double>(self) -> $output {
-                $arm::$kernel::<R>($(cast_ref::<[f64; $n], [R; $n]>(&self.$argument)),+).plain()
+                $arm::$kernel::<R>($(cast_ref::<[f64; $n], [R; $n]>(self.$argument)),+).plain()
             }
         }
         simd::run(Run::<$arm, $n> { $($argument,)+ arm: PhantomData })
@@ -107,28 +112,36 @@ pub mod methods {
     use core::marker::PhantomData;
 
     use bytemuck::cast_ref;
-    use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3};
+    use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3, Vector3};
 
-    use super::{Margins, Unrolled, coordinates, is_singular};
+    use super::{Margins, Unrolled, are_plain, coordinates, is_singular};
     use crate::simd::{self, Call, Double, Plain as _};
 
-    /// Coordinates as an array, made safe.
-    #[inline]
-    fn read<A: Unrolled<N>, const N: usize>(q: &SVector<f64, N>) -> [f64; N] {
-        coordinates(&A::CHAIN, &q.data.0[0])
+    /// Names the coordinates `$q` as an array that a kernel may read, in place wherever it may.
+    macro_rules! read {
+        ($arm:ident, $q:ident) => {
+            let safe;
+            let $q = &$q.data.0[0];
+            let $q = if are_plain($q) {
+                $q
+            } else {
+                safe = coordinates(&$arm::CHAIN, $q);
+                &safe
+            };
+        };
     }
 
     /// w_D and ∇w_D, or zeros where the task is singular.
     #[inline]
     fn settle<const N: usize>(
         value: f64,
-        gradient: [f64; N],
+        gradient: SVector<f64, N>,
         margins: &Margins<f64>,
     ) -> (f64, SVector<f64, N>) {
         if is_singular(margins) {
             (0.0, SVector::zeros())
         } else {
-            (value, gradient.into())
+            (value, gradient)
         }
     }
 
@@ -136,12 +149,12 @@ pub mod methods {
     pub fn forward_kinematics<A: Unrolled<N>, const N: usize>(
         q: &SVector<f64, N>,
     ) -> IsometryMatrix3<f64> {
-        let q = read::<A, N>(q);
+        read!(A, q);
         let (rotation, translation) =
-            on_machine!(A, N, forward_kinematics_kernel(q) -> ([[f64; 3]; 3], [f64; 3]));
+            on_machine!(A, N, forward_kinematics_kernel(q) -> (Matrix3<f64>, Vector3<f64>));
         IsometryMatrix3::from_parts(
             Translation3::from(translation),
-            Rotation3::from_matrix_unchecked(Matrix3::from(rotation)),
+            Rotation3::from_matrix_unchecked(rotation),
         )
     }
 
@@ -149,35 +162,35 @@ pub mod methods {
     pub fn geometric_jacobian<A: Unrolled<N>, const N: usize>(
         q: &SVector<f64, N>,
     ) -> SMatrix<f64, 6, N> {
-        let q = read::<A, N>(q);
-        on_machine!(A, N, geometric_jacobian_kernel(q) -> [[f64; 6]; N]).into()
+        read!(A, q);
+        on_machine!(A, N, geometric_jacobian_kernel(q) -> SMatrix<f64, 6, N>)
     }
 
     /// [`Arm::jacobian_derivatives`](crate::Arm::jacobian_derivatives).
     pub fn jacobian_derivatives<A: Unrolled<N>, const N: usize>(
         q: &SVector<f64, N>,
     ) -> [SMatrix<f64, 6, N>; N] {
-        let q = read::<A, N>(q);
-        on_machine!(A, N, jacobian_derivatives_kernel(q) -> [[[f64; 6]; N]; N]).map(Into::into)
+        read!(A, q);
+        on_machine!(A, N, jacobian_derivatives_kernel(q) -> [SMatrix<f64, 6, N>; N])
     }
 
     /// [`Arm::mass_matrix`](crate::Arm::mass_matrix).
     pub fn mass_matrix<A: Unrolled<N>, const N: usize>(q: &SVector<f64, N>) -> SMatrix<f64, N, N> {
-        let q = read::<A, N>(q);
-        on_machine!(A, N, mass_matrix_kernel(q) -> [[f64; N]; N]).into()
+        read!(A, q);
+        on_machine!(A, N, mass_matrix_kernel(q) -> SMatrix<f64, N, N>)
     }
 
     /// [`Arm::mass_matrix_derivatives`](crate::Arm::mass_matrix_derivatives).
     pub fn mass_matrix_derivatives<A: Unrolled<N>, const N: usize>(
         q: &SVector<f64, N>,
     ) -> [SMatrix<f64, N, N>; N] {
-        let q = read::<A, N>(q);
-        on_machine!(A, N, mass_matrix_derivatives_kernel(q) -> [[[f64; N]; N]; N]).map(Into::into)
+        read!(A, q);
+        on_machine!(A, N, mass_matrix_derivatives_kernel(q) -> [SMatrix<f64, N, N>; N])
     }
 
     /// [`Arm::dynamic_manipulability`](crate::Arm::dynamic_manipulability).
     pub fn dynamic_manipulability<A: Unrolled<N>, const N: usize>(q: &SVector<f64, N>) -> f64 {
-        let q = read::<A, N>(q);
+        read!(A, q);
         let (value, margins) =
             on_machine!(A, N, dynamic_manipulability_kernel(q) -> (f64, Margins<f64>));
         if is_singular(&margins) { 0.0 } else { value }
@@ -187,9 +200,9 @@ pub mod methods {
     pub fn dynamic_manipulability_gradient<A: Unrolled<N>, const N: usize>(
         q: &SVector<f64, N>,
     ) -> (f64, SVector<f64, N>) {
-        let q = read::<A, N>(q);
+        read!(A, q);
         let (value, gradient, margins) = on_machine!(
-            A, N, dynamic_manipulability_gradient_kernel(q) -> (f64, [f64; N], Margins<f64>)
+            A, N, dynamic_manipulability_gradient_kernel(q) -> (f64, SVector<f64, N>, Margins<f64>)
         );
         settle(value, gradient, &margins)
     }
@@ -200,8 +213,9 @@ pub mod methods {
         qd: &SVector<f64, N>,
         qdd: &SVector<f64, N>,
     ) -> SVector<f64, N> {
-        let (q, qd, qdd) = (read::<A, N>(q), qd.data.0[0], qdd.data.0[0]);
-        on_machine!(A, N, inverse_dynamics_kernel(q, qd, qdd) -> [f64; N]).into()
+        read!(A, q);
+        let (qd, qdd) = (&qd.data.0[0], &qdd.data.0[0]);
+        on_machine!(A, N, inverse_dynamics_kernel(q, qd, qdd) -> SVector<f64, N>)
     }
 
     /// [`Arm::bias_force`](crate::Arm::bias_force).
@@ -209,14 +223,15 @@ pub mod methods {
         q: &SVector<f64, N>,
         qd: &SVector<f64, N>,
     ) -> SVector<f64, N> {
-        let (q, qd) = (read::<A, N>(q), qd.data.0[0]);
-        on_machine!(A, N, bias_force_kernel(q, qd) -> [f64; N]).into()
+        read!(A, q);
+        let qd = &qd.data.0[0];
+        on_machine!(A, N, bias_force_kernel(q, qd) -> SVector<f64, N>)
     }
 
     /// [`Arm::gravity_torque`](crate::Arm::gravity_torque).
     pub fn gravity_torque<A: Unrolled<N>, const N: usize>(q: &SVector<f64, N>) -> SVector<f64, N> {
-        let q = read::<A, N>(q);
-        on_machine!(A, N, gravity_torque_kernel(q) -> [f64; N]).into()
+        read!(A, q);
+        on_machine!(A, N, gravity_torque_kernel(q) -> SVector<f64, N>)
     }
 
     /// [`Arm::forward_dynamics`](crate::Arm::forward_dynamics).
@@ -225,31 +240,31 @@ pub mod methods {
         qd: &SVector<f64, N>,
         tau: &SVector<f64, N>,
     ) -> SVector<f64, N> {
-        let (q, qd, tau) = (read::<A, N>(q), qd.data.0[0], tau.data.0[0]);
-        on_machine!(A, N, forward_dynamics_kernel(q, qd, tau) -> [f64; N]).into()
+        read!(A, q);
+        let (qd, tau) = (&qd.data.0[0], &tau.data.0[0]);
+        on_machine!(A, N, forward_dynamics_kernel(q, qd, tau) -> SVector<f64, N>)
     }
 
     /// [`Arm::mass_matrix_and_derivatives`](crate::Arm::mass_matrix_and_derivatives).
     pub fn mass_matrix_and_derivatives<A: Unrolled<N>, const N: usize>(
         q: &SVector<f64, N>,
     ) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) {
-        let q = read::<A, N>(q);
-        let (mass, derivatives) = on_machine!(
-            A, N, mass_matrix_and_derivatives_kernel(q) -> ([[f64; N]; N], [[[f64; N]; N]; N])
-        );
-        (mass.into(), derivatives.map(Into::into))
+        read!(A, q);
+        on_machine!(
+            A, N, mass_matrix_and_derivatives_kernel(q) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N])
+        )
     }
 
     /// [`Arm::jacobian_and_gradient`](crate::Arm::jacobian_and_gradient).
     pub fn jacobian_and_gradient<A: Unrolled<N>, const N: usize>(
         q: &SVector<f64, N>,
     ) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
-        let q = read::<A, N>(q);
+        read!(A, q);
         let (jacobian, value, gradient, margins) = on_machine!(
-            A, N, jacobian_and_gradient_kernel(q) -> ([[f64; 6]; N], f64, [f64; N], Margins<f64>)
+            A, N, jacobian_and_gradient_kernel(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>, Margins<f64>)
         );
         let (value, gradient) = settle(value, gradient, &margins);
-        (jacobian.into(), value, gradient)
+        (jacobian, value, gradient)
     }
 }
 

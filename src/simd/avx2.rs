@@ -3,7 +3,7 @@
 use core::arch::x86_64::*;
 use core::ops::Neg;
 
-use super::{Lanes, MAX_WIDTH, operators};
+use super::{BLOCK, Lanes, MAX_WIDTH, operators};
 use crate::Real;
 use crate::trigonometry::{Quarters, sin_cos};
 
@@ -84,6 +84,22 @@ impl Quarters for Avx2 {
     }
 }
 
+impl From<[f64; 4]> for Avx2 {
+    #[inline(always)]
+    fn from([a, b, c, d]: [f64; 4]) -> Self {
+        unsafe { Self(_mm256_setr_pd(a, b, c, d)) }
+    }
+}
+
+impl From<Avx2> for [f64; 4] {
+    #[inline(always)]
+    fn from(lanes: Avx2) -> Self {
+        let mut numbers = [0.0; 4];
+        unsafe { _mm256_storeu_pd(numbers.as_mut_ptr(), lanes.0) };
+        numbers
+    }
+}
+
 impl Lanes for Avx2 {
     const WIDTH: usize = 4;
 
@@ -97,5 +113,32 @@ impl Lanes for Avx2 {
         let mut numbers = [0.0; MAX_WIDTH];
         unsafe { _mm256_storeu_pd(numbers.as_mut_ptr(), self.0) };
         numbers
+    }
+
+    #[inline(always)]
+    fn transpose(block: &[Self; BLOCK]) -> [[f64; BLOCK]; MAX_WIDTH] {
+        let [a, b, c, d, e, f, g, h] = block;
+        let (left, right) = (quarter([a.0, b.0, c.0, d.0]), quarter([e.0, f.0, g.0, h.0]));
+        let mut rows = [[0.0; BLOCK]; MAX_WIDTH];
+        for lane in 0..4 {
+            rows[lane][..4].copy_from_slice(&<[f64; 4]>::from(Self(left[lane])));
+            rows[lane][4..].copy_from_slice(&<[f64; 4]>::from(Self(right[lane])));
+        }
+        rows
+    }
+}
+
+/// A 4×4 block, transposed.
+#[inline(always)]
+fn quarter([a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
+    unsafe {
+        let (ab, cd) = (_mm256_unpacklo_pd(a, b), _mm256_unpacklo_pd(c, d));
+        let (ab_odd, cd_odd) = (_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d));
+        [
+            _mm256_permute2f128_pd::<0x20>(ab, cd),
+            _mm256_permute2f128_pd::<0x20>(ab_odd, cd_odd),
+            _mm256_permute2f128_pd::<0x31>(ab, cd),
+            _mm256_permute2f128_pd::<0x31>(ab_odd, cd_odd),
+        ]
     }
 }

@@ -3,7 +3,7 @@
 use core::arch::x86_64::*;
 use core::ops::Neg;
 
-use super::{Lanes, MAX_WIDTH, operators};
+use super::{BLOCK, Lanes, MAX_WIDTH, operators};
 use crate::Real;
 use crate::trigonometry::{Quarters, sin_cos};
 
@@ -97,5 +97,52 @@ impl Lanes for Avx512 {
         let mut numbers = [0.0; MAX_WIDTH];
         unsafe { _mm512_storeu_pd(numbers.as_mut_ptr(), self.0) };
         numbers
+    }
+
+    #[inline(always)]
+    fn transpose(block: &[Self; BLOCK]) -> [[f64; BLOCK]; MAX_WIDTH] {
+        let [a, b, c, d, e, f, g, h] = block;
+        unsafe {
+            // Pairs of numbers first, then quarters of registers.
+            let even = [
+                _mm512_unpacklo_pd(a.0, b.0),
+                _mm512_unpacklo_pd(c.0, d.0),
+                _mm512_unpacklo_pd(e.0, f.0),
+                _mm512_unpacklo_pd(g.0, h.0),
+            ];
+            let odd = [
+                _mm512_unpackhi_pd(a.0, b.0),
+                _mm512_unpackhi_pd(c.0, d.0),
+                _mm512_unpackhi_pd(e.0, f.0),
+                _mm512_unpackhi_pd(g.0, h.0),
+            ];
+            let ([r0, r2, r4, r6], [r1, r3, r5, r7]) = (quarters(even), quarters(odd));
+            let mut rows = [[0.0; BLOCK]; MAX_WIDTH];
+            for (row, lanes) in rows.iter_mut().zip([r0, r1, r2, r3, r4, r5, r6, r7]) {
+                _mm512_storeu_pd(row.as_mut_ptr(), lanes);
+            }
+            rows
+        }
+    }
+}
+
+/// A 4×4 block of quarter registers, transposed.
+#[inline(always)]
+fn quarters([a, b, c, d]: [__m512d; 4]) -> [__m512d; 4] {
+    unsafe {
+        let (ab_low, ab_high) = (
+            _mm512_shuffle_f64x2::<0b01_00_01_00>(a, b),
+            _mm512_shuffle_f64x2::<0b11_10_11_10>(a, b),
+        );
+        let (cd_low, cd_high) = (
+            _mm512_shuffle_f64x2::<0b01_00_01_00>(c, d),
+            _mm512_shuffle_f64x2::<0b11_10_11_10>(c, d),
+        );
+        [
+            _mm512_shuffle_f64x2::<0b10_00_10_00>(ab_low, cd_low),
+            _mm512_shuffle_f64x2::<0b11_01_11_01>(ab_low, cd_low),
+            _mm512_shuffle_f64x2::<0b10_00_10_00>(ab_high, cd_high),
+            _mm512_shuffle_f64x2::<0b11_01_11_01>(ab_high, cd_high),
+        ]
     }
 }

@@ -11,7 +11,7 @@
 mod avx2;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod avx512;
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod fused;
 mod plain;
 mod portable;
@@ -46,10 +46,26 @@ pub trait Lanes: Real {
 
     /// The lanes' numbers, the first of the array.
     fn store(self) -> [f64; MAX_WIDTH];
+
+    /// A block of lanes, lane by lane: the first rows of the array.
+    #[inline(always)]
+    fn transpose(block: &[Self; BLOCK]) -> [[f64; BLOCK]; MAX_WIDTH] {
+        let mut rows = [[0.0; BLOCK]; MAX_WIDTH];
+        for (column, lanes) in block.iter().enumerate() {
+            let numbers = lanes.store();
+            for lane in 0..Self::WIDTH {
+                rows[lane][column] = numbers[lane];
+            }
+        }
+        rows
+    }
 }
 
 /// No lanes are wider.
 pub const MAX_WIDTH: usize = 8;
+
+/// How many results are handed out at once.
+pub const BLOCK: usize = 8;
 
 /// A computation on lanes.
 pub trait BatchCall {
@@ -60,9 +76,9 @@ pub trait BatchCall {
 /// Runs `call` on scalars that fuse multiply-adds if the machine does.
 #[inline]
 pub fn run<C: Call>(call: C) -> C::Output {
-    #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma")))]
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
     return run_on(has_avx2(), call);
-    #[cfg(not(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma"))))]
+    #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
     return call.run::<f64>();
 }
 
@@ -77,7 +93,7 @@ pub fn run_batch<C: BatchCall>(call: C) {
 // The processor is asked elsewhere: while a function holds a call and something else might unwind, the compiler puts a
 // clean-up around all that it inlines there, at a cost that grows with the square of a kernel's length (dev profile).
 
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[inline]
 fn run_on<C: Call>(has_avx2: bool, call: C) -> C::Output {
     if has_avx2 {
@@ -113,7 +129,7 @@ fn has_avx2() -> bool {
     std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
 }
 
-#[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "fma")))]
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[target_feature(enable = "avx2,fma")]
 fn run_fused<C: Call>(call: C) -> C::Output {
     call.run::<fused::Fused>()

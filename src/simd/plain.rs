@@ -1,6 +1,7 @@
-//! Arrays of scalars of one double, as arrays of doubles: the same bytes.
+//! What kernels return, on scalars of one double, as what methods return: the same bytes.
 
 use bytemuck::cast;
+use nalgebra::{SMatrix, SVector};
 
 use super::Double;
 
@@ -17,27 +18,25 @@ impl<R: Double> Plain<f64> for R {
     }
 }
 
-impl<R: Double, const K: usize> Plain<[f64; K]> for [R; K] {
-    #[inline(always)]
-    fn plain(self) -> [f64; K] {
-        cast(self)
-    }
+macro_rules! same_bytes {
+    ($($from:ty => $to:ty, <$($size:ident),+>;)+) => {
+        $(
+            impl<R: Double, $(const $size: usize),+> Plain<$to> for $from {
+                #[inline(always)]
+                fn plain(self) -> $to {
+                    cast(self)
+                }
+            }
+        )+
+    };
 }
 
-impl<R: Double, const K: usize, const L: usize> Plain<[[f64; K]; L]> for [[R; K]; L] {
-    #[inline(always)]
-    fn plain(self) -> [[f64; K]; L] {
-        cast(self)
-    }
-}
-
-impl<R: Double, const K: usize, const L: usize, const M: usize> Plain<[[[f64; K]; L]; M]>
-    for [[[R; K]; L]; M]
-{
-    #[inline(always)]
-    fn plain(self) -> [[[f64; K]; L]; M] {
-        cast(self)
-    }
+same_bytes! {
+    [R; K] => [f64; K], <K>;
+    [R; K] => SVector<f64, K>, <K>;
+    [[R; K]; L] => [[f64; K]; L], <K, L>;
+    [[R; K]; L] => SMatrix<f64, K, L>, <K, L>;
+    [[[R; K]; L]; M] => [SMatrix<f64, K, L>; M], <K, L, M>;
 }
 
 macro_rules! tuple {

@@ -19,24 +19,15 @@ unsafe fn arguments<'a, const N: usize>(x: *const f64) -> &'a [SVector<f64, N>; 
     unsafe { &*x.cast() }
 }
 
-/// Writes a value made of numbers alone.
-///
-/// # Safety
-/// `out` has room for it.
-unsafe fn write<T>(value: T, out: *mut f64) {
-    // SAFETY: by contract; whatever is made of numbers is aligned like a number.
-    unsafe { out.cast::<T>().write(value) }
-}
-
 /// A kernel that writes one value: numbers alone, contiguous.
 macro_rules! kernel {
-    ($n:literal, |$q:ident, $qd:ident, $qdd:ident| $value:expr) => {{
+    ($n:literal, $result:ty, |$q:ident, $qd:ident, $qdd:ident| $value:expr) => {{
         unsafe extern "C" fn kernel(x: *const f64, out: *mut f64) {
-            // SAFETY: the caller passes 3N arguments and room for the results.
-            let [$q, $qd, $qdd] = unsafe { arguments::<$n>(x) };
-            let value = $value;
-            // SAFETY: as above.
-            unsafe { write(value, out) }
+            // SAFETY: the caller passes 3N arguments and room for the results; whatever is made of numbers
+            // is aligned like a number.
+            let ([$q, $qd, $qdd], out) =
+                unsafe { (arguments::<$n>(x), &mut *out.cast::<$result>()) };
+            *out = $value;
         }
         Some(kernel as Kernel)
     }};
@@ -46,17 +37,21 @@ macro_rules! kernel {
 macro_rules! quantity {
     ($arm:expr, $n:literal, $quantity:expr) => {
         match $quantity {
-            b"geometric_jacobian" => kernel!($n, |q, _qd, _qdd| $arm.geometric_jacobian(q)),
-            b"mass_matrix" => kernel!($n, |q, _qd, _qdd| $arm.mass_matrix(q)),
+            b"geometric_jacobian" => kernel!($n, SMatrix<f64, 6, $n>, |q, _qd, _qdd| $arm.geometric_jacobian(q)),
+            b"mass_matrix" => kernel!($n, SMatrix<f64, $n, $n>, |q, _qd, _qdd| $arm.mass_matrix(q)),
             b"mass_matrix_derivatives" => {
-                kernel!($n, |q, _qd, _qdd| $arm.mass_matrix_derivatives(q))
+                kernel!($n, [SMatrix<f64, $n, $n>; $n], |q, _qd, _qdd| $arm.mass_matrix_derivatives(q))
             }
-            b"dynamic_manipulability_gradient" => kernel!($n, |q, _qd, _qdd| {
-                let (value, gradient) = $arm.dynamic_manipulability_gradient(q);
-                Gradient { value, gradient }
-            }),
-            b"inverse_dynamics" => kernel!($n, |q, qd, qdd| $arm.inverse_dynamics(q, qd, qdd)),
-            b"forward_dynamics" => kernel!($n, |q, qd, tau| $arm.forward_dynamics(q, qd, tau)),
+            b"dynamic_manipulability_gradient" => {
+                // Written as it is; the value comes first.
+                const {
+                    assert!(offset_of!((f64, SVector<f64, $n>), 0) == 0);
+                }
+                kernel!($n, (f64, SVector<f64, $n>), |q, _qd, _qdd| $arm
+                    .dynamic_manipulability_gradient(q))
+            },
+            b"inverse_dynamics" => kernel!($n, SVector<f64, $n>, |q, qd, qdd| $arm.inverse_dynamics(q, qd, qdd)),
+            b"forward_dynamics" => kernel!($n, SVector<f64, $n>, |q, qd, tau| $arm.forward_dynamics(q, qd, tau)),
             _ => None,
         }
     };
@@ -93,10 +88,6 @@ macro_rules! batch_quantity {
                 batch!($arm, $n, [SMatrix<f64, $n, $n>; $n], mass_matrix_derivatives_batch(0))
             }
             b"dynamic_manipulability_gradient" => {
-                // Written as it is; the value comes first.
-                const {
-                    assert!(offset_of!((f64, SVector<f64, $n>), 0) == 0);
-                }
                 batch!($arm, $n, (f64, SVector<f64, $n>), dynamic_manipulability_gradient_batch(0))
             }
             b"inverse_dynamics" => {
@@ -108,13 +99,6 @@ macro_rules! batch_quantity {
             _ => None,
         }
     };
-}
-
-/// w_D and ∇w_D in this order.
-#[repr(C)]
-struct Gradient<const N: usize> {
-    value: f64,
-    gradient: SVector<f64, N>,
 }
 
 macro_rules! finders {
