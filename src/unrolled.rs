@@ -59,14 +59,21 @@ pub trait Unrolled<const N: usize> {
     fn jacobian_and_gradient_kernel<R: Real>(q: &[R; N]) -> ([[R; 6]; N], R, [R; N], Margins<R>);
 }
 
-/// Whether kernels may read the joint coordinates as they are: true but for absurd ones.
+/// Whether kernels may read the joint coordinates as they are: always, but for absurd ones.
 #[inline(always)]
 pub fn are_plain<const N: usize>(q: &[f64; N]) -> bool {
-    let mut all = true;
-    for q in q {
-        all &= q.abs() <= PLAIN_LIMIT;
+    largest(q.map(f64::abs)) <= PLAIN_LIMIT
+}
+
+/// The largest of some numbers, none below 0.
+#[inline(always)]
+fn largest<const K: usize>(numbers: [f64; K]) -> f64 {
+    let mut largest = 0.0;
+    for number in numbers {
+        // `f64::max` would take three instructions where this takes one.
+        largest = if number > largest { number } else { largest };
     }
-    all
+    largest
 }
 
 /// Joint coordinates as kernels read them: finite results for every finite coordinate.
@@ -79,19 +86,24 @@ pub fn coordinates<const N: usize>(chain: &SerialChain<N>, q: &[f64; N]) -> [f64
 }
 
 /// Whether w_D counts as 0: Eq. 23 would divide by it.
-#[inline]
+#[inline(always)]
 pub fn is_singular(margins: &Margins<f64>) -> bool {
     let [distances, lengths] = margins;
-    let longest = lengths.iter().fold(0.0_f64, |max, length| max.max(*length));
-    !distances
-        .iter()
-        .all(|distance| *distance > ROUNDING * longest)
+    let rounding = ROUNDING * largest(*lengths);
+    let mut clear = true;
+    for distance in distances {
+        clear &= *distance > rounding;
+    }
+    !clear
 }
 
 /// Runs a kernel on the best scalar of the machine: `on_machine!(A, N, kernel(arguments) -> output)`, arguments as arrays
-/// by reference.
+/// by reference; `|result: type| output` makes the output of what the kernel returns, in the same function.
 macro_rules! on_machine {
-    ($arm:ident, $n:ident, $kernel:ident($($argument:ident),+) -> $output:ty) => {{
+    ($arm:ident, $n:ident, $kernel:ident($($argument:ident),+) -> $output:ty) => {
+        on_machine!($arm, $n, $kernel($($argument),+) |output: $output| -> $output { output })
+    };
+    ($arm:ident, $n:ident, $kernel:ident($($argument:ident),+) |$result:tt: $plain:ty| -> $output:ty $finish:block) => {{
         struct Run<'a, $arm, const $n: usize> {
             $($argument: &'a [f64; $n],)+
             arm: PhantomData<$arm>,
@@ -100,7 +112,9 @@ macro_rules! on_machine {
             type Output = $output;
             #[inline(always)]
             fn run<R: Double>(self) -> $output {
-                $arm::$kernel::<R>($(cast_ref::<[f64; $n], [R; $n]>(self.$argument)),+).plain()
+                let $result: $plain =
+                    $arm::$kernel::<R>($(cast_ref::<[f64; $n], [R; $n]>(self.$argument)),+).plain();
+                $finish
             }
         }
         simd::run(Run::<$arm, $n> { $($argument,)+ arm: PhantomData })
@@ -132,7 +146,7 @@ pub mod methods {
     }
 
     /// w_D and ∇w_D, or zeros where the task is singular.
-    #[inline]
+    #[inline(always)]
     fn settle<const N: usize>(
         value: f64,
         gradient: SVector<f64, N>,
@@ -150,12 +164,13 @@ pub mod methods {
         q: &SVector<f64, N>,
     ) -> IsometryMatrix3<f64> {
         read!(A, q);
-        let (rotation, translation) =
-            on_machine!(A, N, forward_kinematics_kernel(q) -> (Matrix3<f64>, Vector3<f64>));
-        IsometryMatrix3::from_parts(
-            Translation3::from(translation),
-            Rotation3::from_matrix_unchecked(rotation),
-        )
+        on_machine!(A, N, forward_kinematics_kernel(q)
+        |(rotation, translation): (Matrix3<f64>, Vector3<f64>)| -> IsometryMatrix3<f64> {
+            IsometryMatrix3::from_parts(
+                Translation3::from(translation),
+                Rotation3::from_matrix_unchecked(rotation),
+            )
+        })
     }
 
     /// [`Arm::geometric_jacobian`](crate::Arm::geometric_jacobian).
@@ -191,9 +206,10 @@ pub mod methods {
     /// [`Arm::dynamic_manipulability`](crate::Arm::dynamic_manipulability).
     pub fn dynamic_manipulability<A: Unrolled<N>, const N: usize>(q: &SVector<f64, N>) -> f64 {
         read!(A, q);
-        let (value, margins) =
-            on_machine!(A, N, dynamic_manipulability_kernel(q) -> (f64, Margins<f64>));
-        if is_singular(&margins) { 0.0 } else { value }
+        on_machine!(A, N, dynamic_manipulability_kernel(q)
+        |(value, margins): (f64, Margins<f64>)| -> f64 {
+            if is_singular(&margins) { 0.0 } else { value }
+        })
     }
 
     /// [`Arm::dynamic_manipulability_gradient`](crate::Arm::dynamic_manipulability_gradient).
@@ -201,10 +217,10 @@ pub mod methods {
         q: &SVector<f64, N>,
     ) -> (f64, SVector<f64, N>) {
         read!(A, q);
-        let (value, gradient, margins) = on_machine!(
-            A, N, dynamic_manipulability_gradient_kernel(q) -> (f64, SVector<f64, N>, Margins<f64>)
-        );
-        settle(value, gradient, &margins)
+        on_machine!(A, N, dynamic_manipulability_gradient_kernel(q)
+        |(value, gradient, margins): (f64, SVector<f64, N>, Margins<f64>)| -> (f64, SVector<f64, N>) {
+            settle(value, gradient, &margins)
+        })
     }
 
     /// [`Arm::inverse_dynamics`](crate::Arm::inverse_dynamics).
@@ -260,11 +276,12 @@ pub mod methods {
         q: &SVector<f64, N>,
     ) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
         read!(A, q);
-        let (jacobian, value, gradient, margins) = on_machine!(
-            A, N, jacobian_and_gradient_kernel(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>, Margins<f64>)
-        );
-        let (value, gradient) = settle(value, gradient, &margins);
-        (jacobian, value, gradient)
+        on_machine!(A, N, jacobian_and_gradient_kernel(q)
+        |(jacobian, value, gradient, margins): (SMatrix<f64, 6, N>, f64, SVector<f64, N>, Margins<f64>)|
+        -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
+            let (value, gradient) = settle(value, gradient, &margins);
+            (jacobian, value, gradient)
+        })
     }
 }
 

@@ -65,7 +65,12 @@ impl Real for Fused {
         while start < K {
             let mut four = [0.0; 4];
             for (lane, angle) in four.iter_mut().enumerate() {
-                *angle = angles[if start + lane < K { start + lane } else { start }].0;
+                *angle = angles[if start + lane < K {
+                    start + lane
+                } else {
+                    start
+                }]
+                .0;
             }
             let (sin, cos) = Avx2::from(four).sin_cos();
             let (sin, cos) = (<[f64; 4]>::from(sin), <[f64; 4]>::from(cos));
