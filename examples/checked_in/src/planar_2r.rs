@@ -113,8 +113,8 @@ impl ::ulna::Unrolled<2> for Planar2r {
     fn jacobian_derivatives_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[[R; 6]; 2]; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
         let t1 = R::of(1.0) + c2;
-        let t2 = -c12;
-        let t3 = -s12;
+        let t2 = -s12;
+        let t3 = -c12;
         [
             [
                 [
@@ -125,11 +125,11 @@ impl ::ulna::Unrolled<2> for Planar2r {
                     R::of(0.0),
                     R::of(0.0),
                 ],
-                [t2, t3, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
+                [t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
             ],
             [
-                [t2, t3, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-                [t2, t3, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
+                [t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
+                [t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
             ],
         ]
     }
@@ -160,23 +160,23 @@ impl ::ulna::Unrolled<2> for Planar2r {
     #[inline(always)]
     fn dynamic_manipulability_kernel<R: ::ulna::Real>(q: &[R; 2]) -> (R, [[R; 6]; 2]) {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t2 = t1 * R::of(2.9985944088708423);
-        let t3 = R::of(1.0) / t1.neg_mul_add(t2, c2 + R::of(1.6669791666666667));
-        let t4 = R::of(1.0) + c2;
-        let t5 = t3 * s12.mul_sub(t2, c12.neg_mul_add(s2, s12 * t4));
-        let t6 = s12.mul_add(R::of(2.9985944088708423), t2 * t5);
-        let t7 = t5.mul_add(t5, t6 * t6);
-        let t8 = t3 * c12.neg_mul_add(t2, c12.mul_add(t4, s12 * s2));
-        let t9 = t2.neg_mul_add(t8, c12 * R::of(2.9985944088708423));
-        let t10 = t6.neg_mul_add(t9, t5 * t8);
-        let t11 = t10 * (R::of(1.0) / t7);
-        let t12 = t5.neg_mul_add(t11, t8);
-        let t13 = t6.mul_add(t11, t9);
+        let t1 = R::of(1.0) + c2;
+        let t2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t3 = t2 * R::of(2.9985944088708423);
+        let t4 = R::of(1.0) / t2.neg_mul_add(t3, c2 + R::of(1.6669791666666667));
+        let t5 = t4 * s12.mul_sub(t3, c12.neg_mul_add(s2, s12 * t1));
+        let t6 = s12.mul_add(R::of(2.9985944088708423), t3 * t5);
+        let t7 = t4 * c12.neg_mul_add(t3, c12.mul_add(t1, s12 * s2));
+        let t8 = t3.neg_mul_add(t7, c12 * R::of(2.9985944088708423));
+        let t9 = t5.mul_add(t5, t6 * t6);
+        let t10 = t6.neg_mul_add(t8, t5 * t7);
+        let t11 = t10 * (R::of(1.0) / t9);
+        let t12 = t5.neg_mul_add(t11, t7);
+        let t13 = t6.mul_add(t11, t8);
         let t14 = t12.mul_add(t12, t13 * t13);
         (
-            (t7 * t14).sqrt(),
-            [[t7, t14, t7, t7, t7, t7], [t7, t10.mul_add(t11, t14), t7, t7, t7, t7]],
+            (t9 * t14).sqrt(),
+            [[t9, t14, t9, t9, t9, t9], [t9, t10.mul_add(t11, t14), t9, t9, t9, t9]],
         )
     }
     /// w_D, ∇w_D (Eq. 22–27), and the margins of w_D.
@@ -187,43 +187,43 @@ impl ::ulna::Unrolled<2> for Planar2r {
         q: &[R; 2],
     ) -> (R, [R; 2], [[R; 6]; 2]) {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t2 = t1 * R::of(2.9985944088708423);
-        let t3 = R::of(1.0) / t1.neg_mul_add(t2, c2 + R::of(1.6669791666666667));
-        let t4 = R::of(1.0) + c2;
-        let t5 = t3 * s12.mul_sub(t2, c12.neg_mul_add(s2, s12 * t4));
-        let t6 = s12.mul_add(R::of(2.9985944088708423), t2 * t5);
-        let t7 = t5.mul_add(t5, t6 * t6);
-        let t8 = t3 * c12.neg_mul_add(t2, c12.mul_add(t4, s12 * s2));
-        let t9 = t2.neg_mul_add(t8, c12 * R::of(2.9985944088708423));
-        let t10 = t6.neg_mul_add(t9, t5 * t8);
-        let t11 = R::of(1.0) / t7;
+        let t1 = R::of(1.0) + c2;
+        let t2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t3 = t2 * R::of(2.9985944088708423);
+        let t4 = R::of(1.0) / t2.neg_mul_add(t3, c2 + R::of(1.6669791666666667));
+        let t5 = t4 * s12.mul_sub(t3, c12.neg_mul_add(s2, s12 * t1));
+        let t6 = s12.mul_add(R::of(2.9985944088708423), t3 * t5);
+        let t7 = t4 * c12.neg_mul_add(t3, c12.mul_add(t1, s12 * s2));
+        let t8 = t3.neg_mul_add(t7, c12 * R::of(2.9985944088708423));
+        let t9 = t5.mul_add(t5, t6 * t6);
+        let t10 = t6.neg_mul_add(t8, t5 * t7);
+        let t11 = R::of(1.0) / t9;
         let t12 = t10 * t11;
-        let t13 = t5.neg_mul_add(t12, t8);
-        let t14 = t6.mul_add(t12, t9);
+        let t13 = t5.neg_mul_add(t12, t7);
+        let t14 = t6.mul_add(t12, t8);
         let t15 = t13.mul_add(t13, t14 * t14);
-        let t16 = (t7 * t15).sqrt();
+        let t16 = (t9 * t15).sqrt();
         let t17 = R::of(1.0) / t15;
-        let t18 = t14 * t17;
-        let t19 = t6.mul_add(t11, t12 * t18);
-        let t20 = t13 * t17;
-        let t21 = t3 * t2.mul_add(t19, t12.neg_mul_add(t20, t5 * t11));
-        let t22 = t19.mul_add(R::of(2.9985944088708423), t2 * t21);
-        let t23 = t3 * t2.neg_mul_add(t18, t20);
-        let t24 = t2.neg_mul_add(t23, R::of(2.9985944088708423) * t18);
-        let t25 = s12
+        let t18 = t13 * t17;
+        let t19 = t14 * t17;
+        let t20 = t6.mul_add(t11, t12 * t19);
+        let t21 = t4 * t3.mul_add(t20, t12.neg_mul_add(t18, t5 * t11));
+        let t22 = t20.mul_add(R::of(2.9985944088708423), t3 * t21);
+        let t23 = t4 * t3.neg_mul_add(t19, t18);
+        let t24 = t3.neg_mul_add(t23, R::of(2.9985944088708423) * t19);
+        let t25 = t5.neg_mul_add(t22, t7 * t24) + t6.neg_mul_add(t21, t8 * t23);
+        let t26 = s12.neg_mul_add(t21, c12 * t23)
+            - t25.mul_add(R::of(0.5), t5.mul_add(t21, t7 * t23));
+        let t27 = s12
             .neg_mul_add(
-                t4.mul_add(t23, s2.mul_add(t21, t24)),
-                c12 * s2.mul_add(t23, t4.neg_mul_add(t21, t22)),
+                t1.mul_add(t23, s2.mul_add(t21, t24)),
+                c12 * s2.mul_add(t23, t1.neg_mul_add(t21, t22)),
             );
-        let t26 = t5.neg_mul_add(t22, t8 * t24) + t6.neg_mul_add(t21, t9 * t23);
-        let t27 = s12.neg_mul_add(t21, c12 * t23)
-            - t26.mul_add(R::of(0.5), t5.mul_add(t21, t8 * t23));
-        let t28 = s2.neg_mul_add(t27, c2 * c12.mul_add(t21, s12 * t23));
+        let t28 = s2.neg_mul_add(t26, c2 * c12.mul_add(t21, s12 * t23));
         (
             t16,
-            [t16 * t25, t16 * (t25 + t28)],
-            [[t7, t15, t7, t7, t7, t7], [t7, t10.mul_add(t12, t15), t7, t7, t7, t7]],
+            [t16 * t27, t16 * (t27 + t28)],
+            [[t9, t15, t9, t9, t9, t9], [t9, t10.mul_add(t12, t15), t9, t9, t9, t9]],
         )
     }
     /// Joint torques, N·m, for the accelerations `qdd`.
@@ -236,17 +236,17 @@ impl ::ulna::Unrolled<2> for Planar2r {
         qdd: &[R; 2],
     ) -> [R; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = qdd[0] + qdd[1];
-        let t2 = c12 * R::of(9.81);
-        let t3 = t1
+        let t1 = c12 * R::of(9.81);
+        let t2 = qdd[0] + qdd[1];
+        let t3 = qd[0] + qd[1];
+        let t4 = t2
             .mul_add(
                 R::of(0.3334895833333333),
-                (t2 + c2.mul_add(qdd[0], s2 * (qd[0] * qd[0]))) * R::of(0.5),
+                (t1 + c2.mul_add(qdd[0], s2 * (qd[0] * qd[0]))) * R::of(0.5),
             );
-        let t4 = qd[0] + qd[1];
-        let t5 = s2.neg_mul_add(R::of(0.5) * (t4 * t4), c2 * (t1 * R::of(0.5)));
-        let t6 = t2.mul_add(c2 * R::of(1.5), s12 * R::of(9.81) * (s2 * R::of(1.5)));
-        [t3 + t5 + qdd[0].mul_add(R::of(1.3334895833333333), t6), t3]
+        let t5 = s2.neg_mul_add(R::of(0.5) * (t3 * t3), c2 * (t2 * R::of(0.5)));
+        let t6 = t1.mul_add(c2 * R::of(1.5), s12 * R::of(9.81) * (s2 * R::of(1.5)));
+        [t4 + t5 + qdd[0].mul_add(R::of(1.3334895833333333), t6), t4]
     }
     /// Joint torques, N·m, at zero acceleration.
     ///
@@ -255,10 +255,10 @@ impl ::ulna::Unrolled<2> for Planar2r {
     fn bias_force_kernel<R: ::ulna::Real>(q: &[R; 2], qd: &[R; 2]) -> [R; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
         let t1 = c12 * R::of(9.81);
-        let t2 = s2.mul_add(qd[0] * qd[0], t1) * R::of(0.5);
-        let t3 = qd[0] + qd[1];
+        let t2 = qd[0] + qd[1];
+        let t3 = s2.mul_add(qd[0] * qd[0], t1) * R::of(0.5);
         let t4 = t1.mul_add(c2 * R::of(1.5), s12 * R::of(9.81) * (s2 * R::of(1.5)));
-        [s2.neg_mul_add(R::of(0.5) * (t3 * t3), t2) + t4, t2]
+        [s2.neg_mul_add(R::of(0.5) * (t2 * t2), t3) + t4, t3]
     }
     /// Joint torques, N·m, at rest.
     ///
@@ -281,17 +281,17 @@ impl ::ulna::Unrolled<2> for Planar2r {
         tau: &[R; 2],
     ) -> [R; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t2 = t1 * R::of(2.9985944088708423);
-        let t3 = c12 * R::of(9.81);
-        let t4 = s2.mul_add(qd[0] * qd[0], t3) * R::of(0.5);
-        let t5 = qd[0] + qd[1];
-        let t6 = t3.mul_add(c2 * R::of(1.5), s12 * R::of(9.81) * (s2 * R::of(1.5)));
-        let t7 = tau[0] - (s2.neg_mul_add(R::of(0.5) * (t5 * t5), t4) + t6);
-        let t8 = tau[1] - t4;
-        let t9 = R::of(1.0) / t1.neg_mul_add(t2, c2 + R::of(1.6669791666666667))
-            * t8.neg_mul_add(t2, t7);
-        [t9, t2.neg_mul_add(t9, t8 * R::of(2.9985944088708423))]
+        let t1 = c12 * R::of(9.81);
+        let t2 = qd[0] + qd[1];
+        let t3 = s2.mul_add(qd[0] * qd[0], t1) * R::of(0.5);
+        let t4 = t1.mul_add(c2 * R::of(1.5), s12 * R::of(9.81) * (s2 * R::of(1.5)));
+        let t5 = tau[0] - (s2.neg_mul_add(R::of(0.5) * (t2 * t2), t3) + t4);
+        let t6 = tau[1] - t3;
+        let t7 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t8 = t7 * R::of(2.9985944088708423);
+        let t9 = R::of(1.0) / t7.neg_mul_add(t8, c2 + R::of(1.6669791666666667))
+            * t6.neg_mul_add(t8, t5);
+        [t9, t8.neg_mul_add(t9, t6 * R::of(2.9985944088708423))]
     }
     /// Mass matrix, and its derivatives by each joint.
     ///
@@ -320,48 +320,51 @@ impl ::ulna::Unrolled<2> for Planar2r {
     ) -> ([[R; 6]; 2], R, [R; 2], [[R; 6]; 2]) {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
         let t1 = R::of(1.0) + c2;
-        let t2 = c12.neg_mul_add(s2, s12 * t1);
-        let t3 = c12.mul_add(t1, s12 * s2);
+        let t2 = c12.mul_add(t1, s12 * s2);
+        let t3 = c12.neg_mul_add(s2, s12 * t1);
         let t4 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
         let t5 = t4 * R::of(2.9985944088708423);
         let t6 = R::of(1.0) / t4.neg_mul_add(t5, c2 + R::of(1.6669791666666667));
-        let t7 = t6 * s12.mul_sub(t5, t2);
+        let t7 = t6 * s12.mul_sub(t5, t3);
         let t8 = s12.mul_add(R::of(2.9985944088708423), t5 * t7);
-        let t9 = t7.mul_add(t7, t8 * t8);
-        let t10 = t6 * c12.neg_mul_add(t5, t3);
-        let t11 = t5.neg_mul_add(t10, c12 * R::of(2.9985944088708423));
-        let t12 = t8.neg_mul_add(t11, t7 * t10);
-        let t13 = R::of(1.0) / t9;
+        let t9 = t6 * c12.neg_mul_add(t5, t2);
+        let t10 = t5.neg_mul_add(t9, c12 * R::of(2.9985944088708423));
+        let t11 = t7.mul_add(t7, t8 * t8);
+        let t12 = t8.neg_mul_add(t10, t7 * t9);
+        let t13 = R::of(1.0) / t11;
         let t14 = t12 * t13;
-        let t15 = t7.neg_mul_add(t14, t10);
-        let t16 = t8.mul_add(t14, t11);
+        let t15 = t7.neg_mul_add(t14, t9);
+        let t16 = t8.mul_add(t14, t10);
         let t17 = t15.mul_add(t15, t16 * t16);
-        let t18 = (t9 * t17).sqrt();
+        let t18 = (t11 * t17).sqrt();
         let t19 = R::of(1.0) / t17;
-        let t20 = t16 * t19;
-        let t21 = t8.mul_add(t13, t14 * t20);
-        let t22 = t15 * t19;
-        let t23 = t6 * t5.mul_add(t21, t14.neg_mul_add(t22, t7 * t13));
-        let t24 = t21.mul_add(R::of(2.9985944088708423), t5 * t23);
-        let t25 = t6 * t5.neg_mul_add(t20, t22);
-        let t26 = t5.neg_mul_add(t25, R::of(2.9985944088708423) * t20);
-        let t27 = s12
+        let t20 = t15 * t19;
+        let t21 = t16 * t19;
+        let t22 = t8.mul_add(t13, t14 * t21);
+        let t23 = t6 * t5.mul_add(t22, t14.neg_mul_add(t20, t7 * t13));
+        let t24 = t22.mul_add(R::of(2.9985944088708423), t5 * t23);
+        let t25 = t6 * t5.neg_mul_add(t21, t20);
+        let t26 = t5.neg_mul_add(t25, R::of(2.9985944088708423) * t21);
+        let t27 = t7.neg_mul_add(t24, t9 * t26) + t8.neg_mul_add(t23, t10 * t25);
+        let t28 = s12.neg_mul_add(t23, c12 * t25)
+            - t27.mul_add(R::of(0.5), t7.mul_add(t23, t9 * t25));
+        let t29 = s12
             .neg_mul_add(
                 t1.mul_add(t25, s2.mul_add(t23, t26)),
                 c12 * s2.mul_add(t25, t1.neg_mul_add(t23, t24)),
             );
-        let t28 = t7.neg_mul_add(t24, t10 * t26) + t8.neg_mul_add(t23, t11 * t25);
-        let t29 = s12.neg_mul_add(t23, c12 * t25)
-            - t28.mul_add(R::of(0.5), t7.mul_add(t23, t10 * t25));
-        let t30 = s2.neg_mul_add(t29, c2 * c12.mul_add(t23, s12 * t25));
+        let t30 = s2.neg_mul_add(t28, c2 * c12.mul_add(t23, s12 * t25));
         (
             [
-                [-t2, t3, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
+                [-t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
                 [-s12, c12, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
             ],
             t18,
-            [t18 * t27, t18 * (t27 + t30)],
-            [[t9, t17, t9, t9, t9, t9], [t9, t12.mul_add(t14, t17), t9, t9, t9, t9]],
+            [t18 * t29, t18 * (t29 + t30)],
+            [
+                [t11, t17, t11, t11, t11, t11],
+                [t11, t12.mul_add(t14, t17), t11, t11, t11, t11],
+            ],
         )
     }
 }
