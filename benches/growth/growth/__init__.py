@@ -1,0 +1,1 @@
+"""How generated code grows with the number of joints: see ../README.md."""

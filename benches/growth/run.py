@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""Arms of ever more joints: what it costs to generate, to compile and to call each quantity."""
+
+import argparse
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+VENV = HERE / ".venv"
+
+
+def in_virtual_environment():
+    """Runs this script again by the virtual environment's interpreter, which is made first."""
+    wanted = (HERE / "requirements.txt").read_text()
+    installed = VENV / "requirements.txt"
+    if not installed.exists() or installed.read_text() != wanted:
+        subprocess.run([sys.executable, "-m", "venv", "--clear", VENV], check=True)
+        subprocess.run([VENV / "bin/pip", "install", "--quiet", "-r", HERE / "requirements.txt"], check=True)
+        installed.write_text(wanted)
+    python = str(VENV / "bin/python")
+    os.execv(python, [python, __file__, *sys.argv[1:]])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    numbers = lambda text: sorted(int(number) for number in text.split(","))
+    parser.add_argument("--joints", type=numbers, default="2,4,7,10,15,20,30", help="sizes, with commas between")
+    parser.add_argument("--profiles", type=lambda text: text.split(","), default="dev,release")
+    parser.add_argument("--seed", type=int, default=1, help="of the tables")
+    parser.add_argument("--limit", type=float, default=900, help="seconds that a compilation may take")
+    parser.add_argument("--output", type=Path, default=HERE, help="the folder to write into")
+    options = parser.parse_args()
+
+    from growth import crate, measure, plot, report
+
+    options.output.mkdir(parents=True, exist_ok=True)
+    cli = measure.build_cli()
+    crate.prepare()
+    rows = []
+    for joints in options.joints:
+        rows += measure.arm(cli, joints, options)
+        # After every size, so that a run that is cut short leaves what it has.
+        report.write(rows, options)
+        plot.draw(rows, options.output)
+    print((options.output / "results.md").read_text())
+    faults = [f"{row.quantity}, {row.joints} joints: {fault}" for row in rows for fault in row.faults()]
+    sys.exit("\n".join(faults) or 0)
+
+
+if __name__ == "__main__":
+    main() if Path(sys.prefix) == VENV else in_virtual_environment()
