@@ -22,43 +22,6 @@ pub fn reachable(graph: &Graph, outputs: impl IntoIterator<Item = Id>) -> Vec<Id
     found
 }
 
-/// Forward (tangent) derivatives: ∂(each of `outputs`)/∂q_`joint`.
-pub fn forward<'g>(graph: &'g Graph, outputs: &[Expr<'g>], joint: usize) -> Vec<Expr<'g>> {
-    let zero = graph.constant(0.0);
-    let mut tangents: HashMap<Id, Expr<'g>> = HashMap::new();
-    for id in reachable(graph, outputs.iter().map(|e| e.id())) {
-        let tangent = match graph.node(id) {
-            Node::Constant(_) => zero,
-            Node::Input(input) => input_derivative(graph, input, joint),
-            Node::Apply(op, a, b) => {
-                let (da, db) = (tangents[&a], tangents[&b]);
-                if da.is_zero() && db.is_zero() {
-                    zero
-                } else {
-                    let row = op.row();
-                    let [pa, pb] = (row.partials)(graph.expr(a), graph.expr(b), graph.expr(id));
-                    match row.arity {
-                        1 => pa * da,
-                        _ => pa * da + pb * db,
-                    }
-                }
-            }
-        };
-        tangents.insert(id, tangent);
-    }
-    outputs.iter().map(|e| tangents[&e.id()]).collect()
-}
-
-fn input_derivative(graph: &Graph, input: Input, joint: usize) -> Expr<'_> {
-    let turns = |angle: usize| graph.angle(angle).joints.contains(&joint);
-    match input {
-        Input::Q(i) if i == joint => graph.constant(1.0),
-        Input::Sin(angle) if turns(angle) => graph.input(Input::Cos(angle)),
-        Input::Cos(angle) if turns(angle) => -graph.input(Input::Sin(angle)),
-        _ => graph.constant(0.0),
-    }
-}
-
 /// Reverse (adjoint) derivatives: Σ seed · ∂output/∂q_i over all pairs of `seeded`, for each of `joints` joints.
 ///
 /// One sweep gives the whole gradient, at a small multiple of the cost of the outputs themselves

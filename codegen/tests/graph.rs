@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use ulna_codegen::Program;
-use ulna_codegen::differentiate::{forward, reverse};
+use ulna_codegen::differentiate::reverse;
 use ulna_codegen::graph::{AngleSum, Expr, Graph, Input};
 use ulna_codegen::op::Op;
 use ulna_codegen::schedule::{Operand, Output, schedule};
@@ -138,11 +138,12 @@ proptest! {
     }
 
     #[test]
-    fn forward_derivatives_are_difference_quotients(tree in tree(), q in coordinates()) {
+    fn derivatives_are_difference_quotients(tree in tree(), q in coordinates()) {
         let graph = Graph::new();
         let root = tree.on(&graph);
-        for joint in 0..JOINTS {
-            let derivative = evaluate(&program(&graph, forward(&graph, &[root], joint)), &q)[0];
+        let gradient = reverse(&graph, &[(root, graph.constant(1.0))], JOINTS);
+        let gradient = evaluate(&program(&graph, gradient), &q);
+        for (joint, derivative) in gradient.into_iter().enumerate() {
             let at = |step: f64| {
                 let mut shifted = q;
                 shifted[joint] += step;
@@ -158,15 +159,15 @@ proptest! {
     }
 
     #[test]
-    fn reverse_and_forward_derivatives_agree(a in tree(), b in tree(), q in coordinates()) {
+    fn seeds_weigh_the_derivatives_of_several_expressions(a in tree(), b in tree(), q in coordinates()) {
         let graph = Graph::new();
         let (a, b) = (a.on(&graph), b.on(&graph));
-        let seeds = [graph.constant(2.0), graph.input(Input::Qd(0))];
-        let gradient = reverse(&graph, &[(a, seeds[0]), (b, seeds[1])], JOINTS);
-        for (joint, by_reverse) in gradient.into_iter().enumerate() {
-            let tangents = forward(&graph, &[a, b], joint);
-            let by_forward = seeds[0] * tangents[0] + seeds[1] * tangents[1];
-            let values = evaluate(&program(&graph, vec![by_reverse, by_forward]), &q);
+        let (one, seeds) = (graph.constant(1.0), [graph.constant(2.0), graph.input(Input::Qd(0))]);
+        let together = reverse(&graph, &[(a, seeds[0]), (b, seeds[1])], JOINTS);
+        let apart = [a, b].map(|root| reverse(&graph, &[(root, one)], JOINTS));
+        for (joint, together) in together.into_iter().enumerate() {
+            let sum = seeds[0] * apart[0][joint] + seeds[1] * apart[1][joint];
+            let values = evaluate(&program(&graph, vec![together, sum]), &q);
             prop_assert!(close(values[0], values[1]), "joint {joint}: {values:?}");
         }
     }

@@ -16,7 +16,8 @@ pub struct Twist<'g> {
 }
 
 impl<'g> Twist<'g> {
-    fn map(self, f: impl Fn(Vec3<'g>) -> Vec3<'g>) -> Self {
+    /// The same to both parts.
+    pub fn map(self, f: impl Fn(Vec3<'g>) -> Vec3<'g>) -> Self {
         Self {
             linear: f(self.linear),
             angular: f(self.angular),

@@ -9,50 +9,78 @@ use super::vector::Vec3;
 use crate::graph::Expr;
 
 /// Momentum of the links beyond a joint when that joint alone moves at unit speed;
-/// the angular part about the origin that is being passed.
-struct Momentum<'g> {
-    joint: usize,
-    linear: Vec3<'g>,
-    angular: Vec3<'g>,
+/// the angular part about the origin at hand.
+#[derive(Clone, Copy, Debug)]
+pub struct Momentum<'g> {
+    /// Linear part.
+    pub linear: Vec3<'g>,
+    /// Angular part.
+    pub angular: Vec3<'g>,
+}
+
+/// What the inward sweep knows at a joint: about the joint's origin, in its group's axes.
+#[derive(Clone, Debug)]
+pub struct Station<'g> {
+    /// All links beyond the joint as one body.
+    pub composite: Body<'g>,
+    /// Momenta of this joint and of all beyond it, this one first.
+    pub momenta: Vec<Momentum<'g>>,
+}
+
+/// The inward sweep: a station for each joint, base first.
+pub fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
+    let mut stations: Vec<Station<'g>> = Vec::new();
+    let mut beyond: Option<(Body<'g>, Vec<Momentum<'g>>)> = None;
+    for group in chain.groups.iter().rev() {
+        for i in group.joints.clone().rev() {
+            let joint = &chain.joints[i];
+            let own = Body::constant(chain.graph, &joint.body).turn_z(joint.group_from_own);
+            let (composite, passed) = match beyond {
+                Some((body, momenta)) => (own.join(body), momenta),
+                None => (own, Vec::new()),
+            };
+            let mut momenta = vec![unit_momentum(joint.kind, &composite)];
+            momenta.extend(passed);
+            stations.push(Station {
+                composite,
+                momenta: momenta.clone(),
+            });
+            let mut turned = composite;
+            if i == group.joints.start {
+                turned = turned.turn_z(group.turn).turn_x(group.alpha);
+                for momentum in &mut momenta {
+                    momentum.linear = group.to_parent(momentum.linear);
+                    momentum.angular = group.to_parent(momentum.angular);
+                }
+            }
+            for momentum in &mut momenta {
+                momentum.angular = momentum.angular + joint.offset.cross(momentum.linear);
+            }
+            beyond = Some((turned.shift(joint.offset), momenta));
+        }
+    }
+    stations.reverse();
+    stations
 }
 
 /// M by rows; full and symmetric.
 pub fn mass_matrix<'g>(chain: &Chain<'g>) -> Vec<Vec<Expr<'g>>> {
     let zero = chain.graph.constant(0.0);
     let mut matrix = vec![vec![zero; chain.joint_count()]; chain.joint_count()];
-    let mut columns: Vec<Momentum<'g>> = Vec::new();
-    let mut beyond: Option<Body<'g>> = None;
-    for group in chain.groups.iter().rev() {
-        for i in group.joints.clone().rev() {
-            let joint = &chain.joints[i];
-            let own = Body::constant(chain.graph, &joint.body).turn_z(joint.group_from_own);
-            let mut composite = beyond.map_or(own, |body| own.join(body));
-            columns.push(unit_momentum(joint.kind, i, &composite));
-            for column in &columns {
-                let entry = match joint.kind {
-                    JointKind::Revolute => column.angular.0[2],
-                    JointKind::Prismatic => column.linear.0[2],
-                };
-                matrix[i][column.joint] = entry;
-                matrix[column.joint][i] = entry;
-            }
-            if i == group.joints.start {
-                composite = composite.turn_z(group.turn).turn_x(group.alpha);
-                for column in &mut columns {
-                    column.linear = group.to_parent(column.linear);
-                    column.angular = group.to_parent(column.angular);
-                }
-            }
-            for column in &mut columns {
-                column.angular = column.angular + joint.offset.cross(column.linear);
-            }
-            beyond = Some(composite.shift(joint.offset));
+    for (i, (joint, station)) in chain.joints.iter().zip(stations(chain)).enumerate() {
+        for (j, momentum) in (i..).zip(&station.momenta) {
+            let entry = match joint.kind {
+                JointKind::Revolute => momentum.angular.0[2],
+                JointKind::Prismatic => momentum.linear.0[2],
+            };
+            matrix[i][j] = entry;
+            matrix[j][i] = entry;
         }
     }
     matrix
 }
 
-fn unit_momentum<'g>(kind: JointKind, joint: usize, composite: &Body<'g>) -> Momentum<'g> {
+fn unit_momentum<'g>(kind: JointKind, composite: &Body<'g>) -> Momentum<'g> {
     let zero = composite.mass.of(0.0);
     let [hx, hy, _] = composite.moment.0;
     let [_, _, zz, _, xz, yz] = composite.inertia.0;
@@ -61,7 +89,6 @@ fn unit_momentum<'g>(kind: JointKind, joint: usize, composite: &Body<'g>) -> Mom
         JointKind::Prismatic => ([zero, zero, composite.mass], [hy, -hx, zero]),
     };
     Momentum {
-        joint,
         linear: Vec3(linear),
         angular: Vec3(angular),
     }

@@ -10,6 +10,7 @@ pub mod inverse_dynamics;
 pub mod kinematics;
 pub mod manipulability;
 pub mod mass_matrix;
+pub mod mass_matrix_derivatives;
 pub mod vector;
 
 use ulna::{TaskRow, TaskRows};
@@ -19,7 +20,7 @@ use self::inverse_dynamics::inverse_dynamics;
 use self::kinematics::{jacobian_derivatives, jacobian_in_group, jacobian_in_world, pose};
 use self::manipulability::manipulability;
 use self::mass_matrix::mass_matrix;
-use crate::differentiate::forward;
+use self::mass_matrix_derivatives::mass_matrix_derivatives;
 use crate::graph::{Expr, Input};
 use crate::schedule::Output;
 
@@ -145,13 +146,10 @@ fn mass<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
 }
 
 fn derivatives_of_mass<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
-    let entries = mass_matrix(chain).concat();
     Output {
         name: "derivatives",
         shape: vec![chain.joint_count(); 3],
-        elements: (0..chain.joint_count())
-            .flat_map(|i| forward(chain.graph, &entries, i))
-            .collect(),
+        elements: mass_matrix_derivatives(chain).concat().concat(),
     }
 }
 
