@@ -200,12 +200,7 @@ fn read_joints(joints: Value<'_>, sink: &Sink) -> Option<Vec<JointTable>> {
         );
         rows.truncate(max);
     }
-    let read = |(i, joint): (usize, Value<'_>)| {
-        let owner = format!("joint {}", i + 1);
-        joint.table(&owner, |fields| read_joint(fields, &owner))
-    };
-    let read: Vec<_> = rows.into_iter().enumerate().map(read).collect();
-    read.into_iter().collect()
+    Value::tables(rows, |i| format!("joint {i}"), read_joint)
 }
 
 fn read_joint(fields: &mut Fields<'_>, owner: &str) -> JointTable {

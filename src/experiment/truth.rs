@@ -223,7 +223,7 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
         let simulation = Simulation {
             plant: self.arm,
             controller: self.controller(experiment, compensation),
-            trajectory: &self.motion,
+            trajectory: self.motion(),
             wrench: |time| experiment.force.at(time),
             feedback: Feedback::critical(FEEDBACK),
             control: Control::Every(self.scenario.cycle),

@@ -15,6 +15,8 @@ mod validate;
 
 pub use angle::Angle;
 pub use task::{TaskRow, TaskRows};
+#[cfg(feature = "table")]
+pub(crate) use validate::RATED_TORQUE;
 
 #[cfg(feature = "table")]
 use std::path::Path;

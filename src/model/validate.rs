@@ -34,7 +34,8 @@ const MOMENT: Bound = Bound {
     unit: "kg m^2",
     help: "inertias are in kg m^2, about the centroid",
 };
-const TORQUE: Bound = Bound {
+/// What a rated torque may be, wherever one is written.
+pub(crate) const RATED_TORQUE: Bound = Bound {
     range: 1e-6..=1e7,
     unit: "N m (N if prismatic)",
     help: "a rated torque is positive; leave the key out if there is none",
@@ -171,7 +172,7 @@ fn joint(row: &JointTable, unit: Option<AngleUnit>, sink: &Sink) -> Option<Joint
     let d = row.d.as_ref().and_then(|d| LENGTH.admit(d, sink));
     let a = row.a.as_ref().and_then(|a| LENGTH.admit(a, sink));
     let rated = row.rated_torque.as_ref();
-    let rated_torque = rated.map(|rated| TORQUE.admit(rated, sink));
+    let rated_torque = rated.map(|rated| RATED_TORQUE.admit(rated, sink));
     let link = row.link.as_ref().and_then(|row| link(row, sink));
     Some(Joint {
         kind: row.kind,

@@ -158,6 +158,20 @@ impl<'t> Value<'t> {
         }
     }
 
+    /// Tables under a common heading, in order; messages call each by `owner` of its number, from 1. `None` if one is no table.
+    pub(crate) fn tables<T>(
+        rows: Vec<Self>,
+        owner: impl Fn(usize) -> String,
+        fields: impl Fn(&mut Fields<'t>, &str) -> T,
+    ) -> Option<Vec<T>> {
+        let read = (1..).zip(rows).map(|(number, row)| {
+            let owner = owner(number);
+            row.table(&owner, |row| fields(row, &owner))
+        });
+        // Each is read before the first that is none ends the reading.
+        read.collect::<Vec<_>>().into_iter().collect()
+    }
+
     /// Whether the value is a string.
     pub(crate) fn is_string(&self) -> bool {
         self.value.is_str()

@@ -2,7 +2,7 @@ use ulna::failure::impact_torque;
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::search::{
     CoefficientLaw, ForcePriority, Objective, Operation, OperationOptions, Outcome, SolveStatus,
-    Stepwise, cancel_per_joint, least_impact, optimal,
+    Stepwise, cancel_per_joint, equivalent_per_joint, least_impact, optimal,
 };
 use ulna::{
     Arm, Compensation, Controller, Failure, JointLimits, LockedJoints, SerialChain, Status,
@@ -53,6 +53,29 @@ fn eq_16_cancels_the_step_of_every_joint() {
     }
     // w_D does not change with joint 7, so its coefficient has no say.
     assert_eq!(k[6], 0.0);
+}
+
+#[test]
+fn equivalent_coefficients_change_each_step_as_another_law_did() {
+    for time in TIMES {
+        let operation = unlimited(time);
+        let exact = cancel_per_joint(&operation).unwrap();
+        let found = equivalent_per_joint(&operation, &exact.assessment);
+        let Compensation::PerJoint(k) = exact.compensation else {
+            panic!("another law");
+        };
+        assert!((found - k).amax() <= 1e-9 * k.amax());
+
+        let best = optimal(&operation, ForcePriority::Exact).unwrap();
+        let k = equivalent_per_joint(&operation, &best.assessment);
+        let alike = operation.assess(&Compensation::PerJoint(k));
+        for i in 0..6 {
+            assert!((alike.impact[i] - best.assessment.impact[i]).abs() < 1e-9);
+        }
+        assert_eq!(k[6], 0.0);
+        // Alike in the step, not in the tool force.
+        assert!(alike.force_error() > 1.0 && best.assessment.force_error() < 1e-9);
+    }
 }
 
 #[test]

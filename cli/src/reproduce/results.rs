@@ -9,6 +9,7 @@ use super::Findings;
 use crate::output::Files;
 
 /// `results.json`. Its cases are the exact ones; those of the search in steps are in `search.csv` and `impact.csv`.
+/// Every case has every key; every number is finite.
 #[derive(Serialize)]
 struct Results<'s> {
     arm: &'s str,
@@ -21,18 +22,37 @@ struct Results<'s> {
 struct ResultCase<'s> {
     section: &'s str,
     law: &'static str,
-    /// Counted from 1; the lowest, where several lock together.
-    failed_joint: usize,
+    failed_joint: FailedJoint,
     failure_time: f64,
+    /// `null` if no joint has one, and in the place of a joint without one.
     rated_torque: Option<&'s [f64]>,
     impact_before: &'s [f64],
     impact_after: &'s [f64],
     suppression_percent: Vec<f64>,
-    /// Zeros for the optimal law, which has none.
+    /// k_d. The optimal law has none: for it those of Eq. 16 that would change each joint's step at the lock alike.
     coefficients: &'s [f64],
     max_force_error: f64,
     max_torque: &'s [f64],
     status: String,
+}
+
+/// Counted from 1.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum FailedJoint {
+    One(usize),
+    /// Those that lock together.
+    Several(Vec<usize>),
+}
+
+impl FailedJoint {
+    fn of(case: &Case) -> Self {
+        let joints: Vec<_> = case.failed_joints.iter().map(|joint| joint + 1).collect();
+        match joints[..] {
+            [joint] => Self::One(joint),
+            _ => Self::Several(joints),
+        }
+    }
 }
 
 /// All numbers of the studies.
@@ -102,7 +122,7 @@ fn result(case: &Case) -> ResultCase<'_> {
     ResultCase {
         section: &case.section,
         law: name(case.method),
-        failed_joint: case.failed_joints.first().map_or(0, |joint| joint + 1),
+        failed_joint: FailedJoint::of(case),
         failure_time: case.failure_time,
         rated_torque: case.rated_torque.as_deref(),
         impact_before: &case.impact_before,

@@ -2,6 +2,7 @@
 
 use super::Reader;
 use crate::Joint;
+use crate::model::RATED_TORQUE;
 use crate::scenario::read::{
     ExperimentTable, FigureTable, FigureWord, List, Numbers, RatedTable, ReferenceTable,
 };
@@ -14,9 +15,8 @@ const FORCE: Bound = Bound {
     help: "forces are in newtons",
 };
 const RATED: Bound = Bound {
-    range: 1e-6..=1e7,
-    unit: "N m (N if prismatic)",
     help: "a rated torque is positive; write \"none\" if there is none",
+    ..RATED_TORQUE
 };
 const FIGURE: Bound = Bound {
     range: -1e16..=1e16,

@@ -4,7 +4,7 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use nalgebra::{DMatrix, DVector};
 
-use super::{SearchError, SolveStatus};
+use crate::search::{SearchError, SolveStatus};
 
 /// `min ½ xᵀ P x + qᵀ x`, P diagonal, subject to `b − A x` in a product of cones.
 pub(super) struct Program {

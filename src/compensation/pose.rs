@@ -1,0 +1,147 @@
+//! [`TaskPose`]: P, J and ∇w_D in one pose, and the compensation that they make.
+
+use nalgebra::{Cholesky, SMatrix, SVector, Vector6};
+
+use super::Compensation;
+use crate::failure::LockedJoints;
+use crate::null_space::{NEAR_SINGULAR, NullSpace, SINGULAR};
+use crate::{Arm, TaskRows};
+
+/// The projector P on the torques that leave the task alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Projector {
+    /// `I − J†J`: no static tool wrench. The paper's, since J̃ = (Jᵀ)† gives `I − J̃†J̃ = I − J†J`.
+    #[default]
+    Static,
+    /// `I − Jᵀ J̄ᵀ`, `J̄ = M⁻¹ Jᵀ (J M⁻¹ Jᵀ)⁻¹`: no acceleration of the tool (Khatib 1987). Its static wrench is not 0.
+    DynamicallyConsistent,
+}
+
+/// What a compensation is made of in one pose.
+#[derive(Clone, Copy, Debug)]
+pub struct TaskPose<const N: usize> {
+    /// J, all six rows, all joints.
+    pub jacobian: SMatrix<f64, 6, N>,
+    /// ∇w_D of Eq. 22, the locked joints' entries 0.
+    pub gradient: SVector<f64, N>,
+    /// The moving joints' J, taken apart.
+    pub null_space: NullSpace<N>,
+    task: TaskRows,
+    locked: LockedJoints<N>,
+    projector: Projector,
+    whitening: Option<Whitening<N>>,
+    /// What U is multiplied by: 1 but near singular poses.
+    fade: f64,
+}
+
+/// With M = L Lᵀ and Ĵ = J L⁻ᵀ, `I − Jᵀ J̄ᵀ = L (I − Ĵ†Ĵ) L⁻¹`.
+#[derive(Clone, Copy, Debug)]
+struct Whitening<const N: usize> {
+    /// L.
+    lower: SMatrix<f64, N, N>,
+    /// Ĵ, taken apart.
+    null_space: NullSpace<N>,
+}
+
+impl<const N: usize> Whitening<N> {
+    /// `None` if rounding leaves M without a Cholesky factor, as only absurd arguments can.
+    fn new(
+        mass_matrix: SMatrix<f64, N, N>,
+        jacobian: &SMatrix<f64, 6, N>,
+        task: TaskRows,
+    ) -> Option<Self> {
+        let lower = Cholesky::new(mass_matrix)?.l();
+        let whitened = lower.solve_lower_triangular(&jacobian.transpose())?;
+        Some(Self {
+            lower,
+            null_space: NullSpace::new(&whitened.transpose(), task),
+        })
+    }
+
+    fn project(&self, x: &SVector<f64, N>) -> Option<SVector<f64, N>> {
+        let white = self.lower.solve_lower_triangular(x)?;
+        Some(self.lower * self.null_space.project(&white))
+    }
+}
+
+impl<const N: usize> TaskPose<N> {
+    /// Looks at `arm` in `q` with `locked` joints.
+    #[inline]
+    pub fn new(
+        arm: &impl Arm<N>,
+        q: &SVector<f64, N>,
+        locked: LockedJoints<N>,
+        projector: Projector,
+    ) -> Self {
+        let (jacobian, _, gradient) = arm.jacobian_and_gradient(q);
+        let task = arm.task();
+        let reduced = locked.reduce_jacobian(&jacobian);
+        let null_space = NullSpace::new(&reduced, task);
+        let distance = (null_space.conditioning() - SINGULAR) / (NEAR_SINGULAR - SINGULAR);
+        let whitening = match projector {
+            Projector::Static => None,
+            Projector::DynamicallyConsistent => Whitening::new(
+                locked.reduce_mass_matrix(&arm.mass_matrix(q)),
+                &reduced,
+                task,
+            ),
+        };
+        Self {
+            jacobian,
+            gradient: locked.without(&gradient),
+            null_space,
+            task,
+            locked,
+            projector,
+            whitening,
+            fade: distance.clamp(0.0, 1.0),
+        }
+    }
+
+    /// The rows of J that make up the task.
+    pub fn task(&self) -> TaskRows {
+        self.task
+    }
+
+    /// P x for the moving joints, times the factor of the rule near singular poses.
+    #[inline]
+    pub fn project(&self, x: &SVector<f64, N>) -> SVector<f64, N> {
+        let x = self.locked.without(x);
+        let projected = match self.projector {
+            Projector::Static => self.null_space.project(&x),
+            Projector::DynamicallyConsistent => self
+                .whitening
+                .and_then(|whitening| whitening.project(&x))
+                .unwrap_or_else(SVector::zeros),
+        };
+        projected * self.fade
+    }
+
+    /// Jᵀ f for the moving joints and the task's rows of f, times the factor of the rule near singular poses.
+    #[inline]
+    pub fn lift(&self, wrench: &Vector6<f64>) -> SVector<f64, N> {
+        let mut of_task = Vector6::zeros();
+        for row in self.task.iter() {
+            of_task[row.index()] = wrench[row.index()];
+        }
+        let torque = self.jacobian.tr_mul(&of_task);
+        self.locked.without(&torque) * self.fade
+    }
+
+    /// U of Eq. 16 or 20, or of the optimal law.
+    #[inline]
+    pub fn compensation(&self, compensation: &Compensation<N>) -> SVector<f64, N> {
+        match compensation {
+            Compensation::PerJoint(k) => self.project(&self.gradient).component_mul(k),
+            Compensation::Projected(k) => self.project(&self.gradient.component_mul(k)),
+            Compensation::Optimal { before, after } => {
+                let free = if self.locked.is_empty() {
+                    before
+                } else {
+                    after
+                };
+                self.project(&free.torque) + self.lift(&free.wrench)
+            }
+        }
+    }
+}

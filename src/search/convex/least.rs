@@ -1,0 +1,114 @@
+//! The least `step + R x` within limits, in the two norms, and among equals the least x or the least force error.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::conic::{Program, Solution};
+use super::limits::TorqueLimits;
+use super::pseudo_inverse::pseudo_inverse;
+use crate::search::{SearchError, SolveStatus};
+
+pub(super) type Solve = Result<Option<Solution>, SearchError>;
+
+/// `min ‖step + R x‖` within the limits: by the pseudoinverse if they do not bind.
+pub(super) fn least_squares(
+    impact: &DMatrix<f64>,
+    step: &DVector<f64>,
+    limits: &TorqueLimits,
+    solve: impl FnOnce(Program) -> Solve,
+) -> Result<Solution, SearchError> {
+    let x = -pseudo_inverse(impact) * step;
+    if limits.admit(&x) {
+        return Ok(Solution::closed_form(x));
+    }
+    least_squares_program(impact, step, limits, solve)
+}
+
+/// The same by the solver, `solve`, which may add constraints: with r = step + R x, `min ½ ‖r‖²`.
+pub(super) fn least_squares_program(
+    impact: &DMatrix<f64>,
+    step: &DVector<f64>,
+    limits: &TorqueLimits,
+    solve: impl FnOnce(Program) -> Solve,
+) -> Result<Solution, SearchError> {
+    let (joints, variables) = impact.shape();
+    let mut program = Program::new(variables + joints);
+    program.quadratic[variables..].fill(1.0);
+    let mut definition = impact.clone().resize_horizontally(variables + joints, 0.0);
+    for i in 0..joints {
+        definition[(i, variables + i)] = -1.0;
+    }
+    program.equal(&definition, (-step).as_slice());
+    program.at_most(&limits.map, &limits.room);
+    let mut solution = solve(program)?.ok_or_else(|| limits.tightest())?;
+    solution.x = solution.x.rows(0, variables).into_owned();
+    Ok(solution)
+}
+
+/// `min s` with `|step + R x| ≤ s` within the limits.
+pub(super) fn min_max(
+    impact: &DMatrix<f64>,
+    step: &DVector<f64>,
+    limits: &TorqueLimits,
+) -> Result<Solution, SearchError> {
+    let variables = impact.ncols();
+    let mut program = Program::new(variables + 1);
+    program.linear[variables] = 1.0;
+    for (map, bound) in [(impact.clone(), -step), (-impact, step.clone())] {
+        let within = map.insert_column(variables, -1.0);
+        program.at_most(&within, bound.as_slice());
+    }
+    program.at_most(&limits.map, &limits.room);
+    let mut solution = program.solve()?.ok_or_else(|| limits.tightest())?;
+    solution.x = solution.x.rows(0, variables).into_owned();
+    Ok(solution)
+}
+
+impl Solution {
+    pub(super) fn closed_form(x: DVector<f64>) -> Self {
+        Self {
+            x,
+            status: SolveStatus::ClosedForm,
+            gap: 0.0,
+            iterations: 0,
+        }
+    }
+
+    /// Of all x with the same outcome the shortest, unless a limit forbids it: the solver leaves open what costs nothing.
+    pub(super) fn with_least_variables(
+        mut self,
+        outcome: &DMatrix<f64>,
+        limits: &TorqueLimits,
+    ) -> Self {
+        let least = pseudo_inverse(outcome) * (outcome * &self.x);
+        if limits.admit(&least) {
+            self.x = least;
+        }
+        self
+    }
+
+    /// Of all x with the same impact the one with the least force error: `min s`, `‖E x‖ ≤ s` before and after.
+    pub(super) fn with_least_force(
+        mut self,
+        impact: &DMatrix<f64>,
+        forces: [&DMatrix<f64>; 2],
+        allowed: f64,
+        limits: &TorqueLimits,
+    ) -> Result<Self, SearchError> {
+        let variables = impact.ncols();
+        let mut program = Program::new(variables + 1);
+        program.linear[variables] = 1.0;
+        program.equal(impact, (impact * &self.x).as_slice());
+        for force in forces {
+            program.norm_at_most_variable(force, variables);
+        }
+        program.at_most(&limits.map, &limits.room);
+        // The solver's own x is admissible to its tolerances only; where that is not enough, it stays.
+        if let Ok(Some(least)) = program.solve()
+            && least.x[variables] < allowed
+        {
+            self.x = least.x.rows(0, variables).into_owned();
+            self.iterations += least.iterations;
+        }
+        Ok(self)
+    }
+}
