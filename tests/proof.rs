@@ -1,9 +1,9 @@
 //! `proof::compare` finds what is wrong, and only that.
 
 use ulna::nalgebra::{IsometryMatrix3, SMatrix, SVector, Translation3};
-use ulna::proof::{compare, states};
+use ulna::proof::{Deviation, State, compare, differences, states};
 use ulna::{Angle, Arm, Joint, JointKind, Link, Placement, SerialChain, TaskRow, TaskRows};
-use ulna_generated::Ssrms;
+use ulna_generated::{Planar2r, Ssrms};
 
 const fn joint(kind: JointKind, a: f64) -> Joint {
     Joint {
@@ -215,4 +215,26 @@ fn states_are_reproducible_and_within_their_ranges() {
         spread(1) > 0.5 && spread(1) <= 1.0,
         "a prismatic joint stays within a metre"
     );
+}
+
+#[test]
+fn right_derivatives_are_close_to_differences() {
+    let deviations = differences::compare(&Planar2r, states(&Planar2r::CHAIN).take(50));
+    assert!(deviations.iter().all(Deviation::passes), "{deviations:?}");
+    assert!(deviations.iter().all(|deviation| deviation.error > 0.0));
+}
+
+#[test]
+fn derivatives_are_compared_where_they_vanish_and_beside_the_kink_of_w_d() {
+    for elbow in [0.0, 1e-9, 3e-6, 2e-4, 1e-2] {
+        let state = State {
+            q: SVector::from([0.7, elbow]),
+            qd: SVector::zeros(),
+            qdd: SVector::zeros(),
+            tau: SVector::zeros(),
+        };
+        for deviation in differences::compare(&Planar2r, [state].into_iter()) {
+            assert!(deviation.error < 1e-6, "{elbow}: {deviation:?}");
+        }
+    }
 }

@@ -7,7 +7,6 @@ mod campaign;
 mod check;
 mod console;
 mod cost;
-mod differences;
 mod figures;
 mod generate;
 mod joints;

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::{Context, bail};
 
 /// Writes `bytes` under another name first, so that `path` is never half of them.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
@@ -23,6 +23,23 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     file.write_all(bytes)?;
     file.persist(path)?;
     Ok(())
+}
+
+/// Refuses a `folder` that no file can be written to, before the work that leads to the files. Makes nothing.
+pub(crate) fn check_folder(folder: &Path) -> anyhow::Result<()> {
+    let there = folder.ancestors().find(|path| path.exists());
+    match there {
+        Some(path) if !path.is_dir() => bail!(
+            "cannot make the folder {}: {} is a file",
+            folder.display(),
+            path.display()
+        ),
+        Some(path) => tempfile::tempfile_in(path)
+            .map(drop)
+            .with_context(|| format!("cannot write to the folder {}", path.display())),
+        // The folder that the program runs in.
+        None => Ok(()),
+    }
 }
 
 /// The files of a folder before they are written: what fails on the way leaves nothing behind.

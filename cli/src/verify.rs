@@ -5,11 +5,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use ulna::generic::JointCountError;
-use ulna::proof::{self, Deviation, Report};
+use ulna::proof::{self, Deviation, Report, differences};
 use ulna::{Model, SerialChain};
 use ulna_codegen::Interpreter;
 
-use crate::differences;
 use crate::joints::{ForChain, with_chain};
 use crate::{Verdict, console};
 

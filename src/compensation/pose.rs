@@ -106,6 +106,10 @@ impl<const N: usize> TaskPose<N> {
     /// P x for the moving joints, times the factor of the rule near singular poses.
     #[inline]
     pub fn project(&self, x: &SVector<f64, N>) -> SVector<f64, N> {
+        if self.null_space.rank() + self.locked.len() >= N {
+            // No direction is left; what the products below would leave is rounding, and a coefficient could be made for it.
+            return SVector::zeros();
+        }
         let x = self.locked.without(x);
         let projected = match self.projector {
             Projector::Static => self.null_space.project(&x),

@@ -65,7 +65,14 @@ impl ScenarioArm {
                     path,
                     model: model.into(),
                 }),
-                Err(errors) => Err(Some(errors)),
+                Err(errors) => {
+                    let message = format!("the table {written:?} is refused");
+                    sink.push(
+                        Diagnostic::error(name.span.clone(), message)
+                            .label("for the reasons that follow"),
+                    );
+                    Err(Some(errors))
+                }
             };
         }
         if let Some(arm) = known.iter().find(|arm| arm.name == written) {

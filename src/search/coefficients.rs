@@ -7,7 +7,8 @@ use nalgebra::{SMatrix, SVector};
 use super::{Assessment, Operation, Outcome, Sample, SearchError, SolveStatus};
 use crate::compensation::Compensation;
 
-/// A coefficient that does less than this much of what the strongest does has no say: it stays 0, or as near to 0 as it may.
+/// A coefficient that does less than this much of what ∇w_D itself would do, or the strongest coefficient does, has no say:
+/// it stays 0, or as near to 0 as it may.
 pub(super) const NO_SAY: f64 = 1e-9;
 
 /// A law with coefficients k_d.
@@ -84,11 +85,7 @@ pub fn cancel_per_joint<const N: usize>(
     let step = operation.step();
     let mut k = SVector::zeros();
     for i in 0..N {
-        let wish = if has_say(i, &slopes) {
-            -step[i] / slopes[i]
-        } else {
-            0.0
-        };
+        let wish = slopes[i].map_or(0.0, |slope| -step[i] / slope);
         k[i] = maps.interval(i, &k)?.nearest(wish);
     }
     let seconds = clock.elapsed().as_secs_f64();
@@ -113,21 +110,16 @@ pub fn equivalent_per_joint<const N: usize>(
 ) -> SVector<f64, N> {
     let slopes = step_slopes(operation);
     let change = assessment.impact - operation.step();
-    SVector::from_fn(|i, _| {
-        if has_say(i, &slopes) {
-            change[i] / slopes[i]
-        } else {
-            0.0
-        }
-    })
+    SVector::from_fn(|i, _| slopes[i].map_or(0.0, |slope| change[i] / slope))
 }
 
-/// ∂Δτ̃_i/∂k_di of Eq. 16.
-fn step_slopes<const N: usize>(operation: &Operation<N>) -> SVector<f64, N> {
+/// ∂Δτ̃_i/∂k_di of Eq. 16; `None` where k_di has no say.
+fn step_slopes<const N: usize>(operation: &Operation<N>) -> [Option<f64>; N] {
+    let (before, after) = (operation.before(), operation.after());
     let map = |sample: &Sample<N>| CoefficientLaw::PerJoint.map(sample).diagonal();
-    map(operation.after()) - map(operation.before())
-}
-
-fn has_say<const N: usize>(i: usize, slopes: &SVector<f64, N>) -> bool {
-    slopes[i].abs() > NO_SAY * slopes.amax()
+    let slopes = map(after) - map(before);
+    // Slopes that are all far below ∇w_D are what rounding leaves of a projection that takes all of it away.
+    let gradient = before.pose.gradient.amax().max(after.pose.gradient.amax());
+    let strongest = slopes.amax().max(gradient);
+    core::array::from_fn(|i| Some(slopes[i]).filter(|slope| slope.abs() > NO_SAY * strongest))
 }

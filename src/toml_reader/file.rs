@@ -17,7 +17,7 @@ pub(crate) fn read_file(folder: &Path, path: &Path, max_bytes: u64) -> Result<St
         Diagnostics::of_file(&name, error)
     };
     if file.is_dir() {
-        let help = format!("name a file in it, for example {name}/my_arm.toml");
+        let help = format!("name a file in it, such as {name}/my.toml");
         return Err(refuse(
             "this is a directory, not a file".to_owned(),
             Some(help),

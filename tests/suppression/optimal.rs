@@ -1,8 +1,10 @@
-use ulna::nalgebra::SVector;
+use ulna::nalgebra::{SVector, Vector6};
 use ulna::search::{
-    CoefficientLaw, ForcePriority, Objective, Stepwise, cancel_per_joint, frontier, least_impact,
-    optimal,
+    CoefficientLaw, ForcePriority, Objective, Operation, OperationOptions, Stepwise,
+    cancel_per_joint, frontier, least_impact, optimal,
 };
+use ulna::{Compensation, Failure, JointLimits, LockedJoints, Trapezoid};
+use ulna_generated::Planar2r;
 
 use crate::arms::{TIMES, failure, limited, operation, unlimited};
 
@@ -13,6 +15,39 @@ fn the_least_that_keeping_the_force_can_leave() {
         let found = outcome.assessment.healthy_impact;
         assert!((found / expected - 1.0).abs() < 1e-3, "{time} s: {found}");
         assert!(outcome.assessment.max_force_error < 1e-9);
+    }
+}
+
+/// Two joints and a task of two rows: whatever is found would be made of rounding.
+#[test]
+fn without_a_null_space_no_law_finds_a_compensation() {
+    let (start, goal) = (SVector::from([0.2, 1.0]), SVector::from([1.1, 0.4]));
+    let motion = Trapezoid::new(start, goal, 2.0, 0.5, &JointLimits::none()).unwrap();
+    let wrench = |_| Vector6::new(1.0, 2.0, 0.0, 0.0, 0.0, 0.0);
+    for joint in 0..2 {
+        let joints = LockedJoints::new(&[joint]).unwrap();
+        for rated_torque in [f64::INFINITY, 40.0] {
+            let options = OperationOptions {
+                rated_torque: SVector::repeat(rated_torque),
+                ..OperationOptions::default()
+            };
+            let failure = Failure { joints, time: 0.9 };
+            let operation = Operation::new(&Planar2r, &motion, wrench, &failure, &options).unwrap();
+            for found in [
+                cancel_per_joint(&operation).unwrap(),
+                least_impact(&operation, Objective::LeastSquares).unwrap(),
+                least_impact(&operation, Objective::MinMax).unwrap(),
+                optimal(&operation, ForcePriority::Exact).unwrap(),
+            ] {
+                let assessment = found.assessment;
+                assert!(assessment.peak_compensation.amax() < 1e-12, "{found:?}");
+                assert!((assessment.impact - operation.step()).amax() < 1e-12);
+                assert!(assessment.max_force_error < 1e-12);
+                if let Compensation::PerJoint(k) | Compensation::Projected(k) = found.compensation {
+                    assert_eq!(k.amax(), 0.0);
+                }
+            }
+        }
     }
 }
 

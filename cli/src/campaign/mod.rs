@@ -16,7 +16,7 @@ use ulna::{Arm, Scenario};
 
 use crate::arms::{ForArm, GENERATED, with_arm};
 use crate::figures::{self, HeatMap};
-use crate::output::Files;
+use crate::output::{self, Files};
 use crate::{Verdict, console};
 pub(crate) use file::Row;
 use file::{CampaignFile, row};
@@ -24,20 +24,20 @@ use file::{CampaignFile, row};
 /// Vary a scenario: every joint, a grid of failure times, random starts, goals and forces
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  ulna campaign scenarios/paper_like.toml --cases 280 --output target/campaign\n\n\
+    after_help = "Example:\n  ulna campaign scenarios/paper_like.toml --cases 140 --output target/campaign\n\n\
     Interrupted, it goes on where it stopped when it is called again. The result does not depend on the number of threads."
 )]
 pub(crate) struct Arguments {
     /// The scenario (TOML); its first experiment's rated torques are kept
     scenario: PathBuf,
     /// How many cases; without it as many as the scenario says
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
     cases: Option<u64>,
     /// The seed of all random numbers; without it the scenario's
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
     /// How many threads; without it one for each core
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Where campaign.csv and the figures go
     #[arg(long, short, value_name = "DIR", default_value = "out")]
@@ -48,6 +48,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     let mut scenario = Scenario::load(&arguments.scenario, GENERATED)?;
     scenario.campaign.cases = arguments.cases.unwrap_or(scenario.campaign.cases);
     scenario.campaign.seed = arguments.seed.unwrap_or(scenario.campaign.seed);
+    output::check_folder(&arguments.output)?;
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

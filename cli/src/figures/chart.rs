@@ -95,7 +95,7 @@ where
         .margin_left(pen.px(6))
         .margin_right(pen.px(18))
         .caption(axes.title, pen.title())
-        .x_label_area_size(pen.px(44))
+        .x_label_area_size(pen.px(38))
         .y_label_area_size(pen.px(66))
         .build_cartesian_2d(x, y)?;
     chart
@@ -116,18 +116,38 @@ where
     Ok(chart)
 }
 
-/// The shortest text of a tick that is exact to a thousandth; smaller ones by their power of ten.
-fn tick(value: f64) -> String {
-    if value.abs() < 1e-3 && value != 0.0 {
-        return format!("{value:e}").replace('-', "\u{2212}");
-    }
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" {
-        "0".to_owned()
+/// The shortest text of a tick that is exact to a thousandth; very small and very large ones by their power of ten.
+pub(super) fn tick(value: f64) -> String {
+    let size = value.abs();
+    let text = if (1e-3..1e5).contains(&size) || size == 0.0 {
+        let text = format!("{value:.3}");
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
-        text.replace('-', "\u{2212}")
+        let text = format!("{value:.2e}");
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        let power = format!("10{}", superscript(exponent));
+        match mantissa.trim_end_matches('0').trim_end_matches('.') {
+            "1" => power,
+            "-1" => format!("-{power}"),
+            mantissa => format!("{mantissa}\u{b7}{power}"),
+        }
+    };
+    match text.as_str() {
+        "-0" => "0".to_owned(),
+        text => text.replace('-', "\u{2212}"),
     }
+}
+
+fn superscript(exponent: &str) -> String {
+    const DIGITS: [char; 10] = [
+        '\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}',
+        '\u{2078}', '\u{2079}',
+    ];
+    let digit = |c: char| {
+        c.to_digit(10)
+            .map_or('\u{207b}', |digit| DIGITS[digit as usize])
+    };
+    exponent.chars().map(digit).collect()
 }
 
 /// A range around `values`, with some air; never empty, never infinite.

@@ -7,7 +7,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{Color, RGBColor};
 use ulna::Scenario;
 
-use super::chart::{Axes, grid_panel};
+use super::chart::{Axes, grid_panel, tick};
 use super::style::{BLACK, GREY, Pen, anchored};
 use super::{Area, Drawn, Figure};
 use crate::campaign::Row;
@@ -165,7 +165,9 @@ fn colour_bar<DB: DrawingBackend>(
     let style = anchored(&pen.small(), HPos::Left, VPos::Center);
     let mut exponent = least;
     while exponent <= most {
-        let label = format!("{}", 10_f64.powf(exponent));
+        // What is below the scale has its lowest colour.
+        let bound = if exponent == least { "\u{2264} " } else { "" };
+        let label = format!("{bound}{}", tick(10_f64.powf(exponent)));
         area.draw(&Text::new(label, (pen.at(36), at(exponent)), style.clone()))?;
         exponent += 1.0;
     }

@@ -8,8 +8,9 @@ use plotters::style::text_anchor::{HPos, VPos};
 use ulna::experiment::{Case, Method, Study};
 
 use super::chart::{Axes, Key, bar_panel, legend, panel, range};
+use super::law::{LAWS, WITHOUT, WITHOUT_LABEL};
 use super::stroke::Stroke;
-use super::style::{BLACK, BLUE, GREEN, GREY, ORANGE, Pen, anchored};
+use super::style::{BLACK, Pen, anchored};
 use super::{Area, Drawn, Figure};
 
 /// Bars for each failure time, and the tool force if it varies.
@@ -19,12 +20,6 @@ pub(crate) struct Impacts<'s> {
     /// Whether to draw the tool force over time.
     pub(crate) with_force: bool,
 }
-
-const BARS: [(Method, &str, plotters::style::RGBColor); 3] = [
-    (Method::PerJoint, "Eq. 16 (force bent)", BLUE),
-    (Method::Projected, "Eq. 20 (force kept)", ORANGE),
-    (Method::Optimal, "optimal (force kept)", GREEN),
-];
 
 /// Below this, N m, a bar is not drawn any shorter.
 const FLOOR: f64 = 1e-3;
@@ -37,8 +32,8 @@ impl Figure for Impacts<'_> {
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
         let (head, body) = area.split_vertically(pen.px(34));
-        let mut entries = vec![(Key::Patch(GREY), "without suppression".to_owned())];
-        entries.extend(BARS.map(|(_, label, colour)| (Key::Patch(colour), label.to_owned())));
+        let mut entries = vec![(Key::Patch(WITHOUT.colour), WITHOUT_LABEL.to_owned())];
+        entries.extend(LAWS.map(|law| (Key::Patch(law.stroke.colour), law.label.to_owned())));
         if self.with_force {
             entries.push((Key::Stroke(FORCE), "tool force asked for".to_owned()));
         }
@@ -54,8 +49,8 @@ impl Figure for Impacts<'_> {
         let values = self.studies.iter().flat_map(|study| {
             let before = study.case(Method::PerJoint).impact_before.iter().copied();
             before.chain(
-                BARS.into_iter()
-                    .flat_map(|(method, ..)| study.case(method).impact_after.iter().copied()),
+                LAWS.into_iter()
+                    .flat_map(|law| study.case(law.method).impact_after.iter().copied()),
             )
         });
         let top = 2.0 * values.fold(FLOOR * 10.0, f64::max);
@@ -66,11 +61,7 @@ impl Figure for Impacts<'_> {
     }
 }
 
-const FORCE: Stroke = Stroke {
-    colour: BLACK,
-    width: 2,
-    dash: Some((8, 4)),
-};
+const FORCE: Stroke = Stroke::dashed(BLACK);
 
 impl Impacts<'_> {
     /// The failure time whose tool force is drawn: the middle one.
@@ -103,7 +94,7 @@ fn force<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study) -> Drawn<
         .zip(&series.force)
         .map(|(time, force)| (*time, size(force, &[0.0; 6])))
         .collect();
-    let curves = BARS.map(|(method, _, colour)| (given(study.case(method)), colour));
+    let curves = LAWS.map(|law| (given(study.case(law.method)), law.stroke.colour));
     let all = || curves.iter().flat_map(|(points, _)| points).chain(&asked);
     let y = range(all().map(|point| point.1).chain([0.0]));
     let x = 0.0..all().map(|point| point.0).fold(1e-3, f64::max);
@@ -114,16 +105,11 @@ fn force<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study) -> Drawn<
         &Axes {
             title: &title,
             x: ("time in s", x),
-            y: ("size of the force in N", y),
+            y: ("norm of the tool force in N", y),
         },
     )?;
     for (points, colour) in &curves {
-        let stroke = Stroke {
-            colour: *colour,
-            width: 2,
-            dash: None,
-        };
-        stroke.curve(&mut panel, pen, points)?;
+        Stroke::solid(*colour).curve(&mut panel, pen, points)?;
     }
     FORCE.curve(&mut panel, pen, &asked)
 }
@@ -141,9 +127,11 @@ fn bars<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study, top: f64) 
     let mut panel = bar_panel(area, pen, &axes)?;
     let locked = &study.case(Method::PerJoint).failed_joints;
     for (joint, before) in before.iter().enumerate() {
-        let after =
-            BARS.map(|(method, _, colour)| (study.case(method).impact_after[joint], colour));
-        let group = [(*before, GREY)].into_iter().chain(after);
+        let after = LAWS.map(|law| {
+            let case = study.case(law.method);
+            (case.impact_after[joint], law.stroke.colour)
+        });
+        let group = [(*before, WITHOUT.colour)].into_iter().chain(after);
         for (i, (value, colour)) in group.enumerate() {
             let left = joint as f64 + 0.62 + 0.19 * i as f64;
             let bar = [(left, FLOOR), (left + 0.17, value.clamp(FLOOR * 1.06, top))];

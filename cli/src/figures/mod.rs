@@ -3,6 +3,7 @@
 mod chart;
 mod heat_map;
 mod impact;
+mod law;
 mod stroke;
 mod style;
 mod torque;

@@ -8,18 +8,44 @@ use plotters::series::{DashedLineSeries, LineSeries};
 use plotters::style::{RGBColor, ShapeStyle};
 
 use super::Drawn;
-use super::style::{Pen, SEQUENCE};
+use super::style::{GREY, Pen, SEQUENCE, VERMILION};
 
 /// How a curve is drawn: the dashes tell it apart without colour.
 #[derive(Clone, Copy)]
 pub(super) struct Stroke {
     pub(super) colour: RGBColor,
-    pub(super) width: u32,
+    width: u32,
     /// Lengths of dash and gap; `None` for a solid line.
     pub(super) dash: Option<(u32, u32)>,
 }
 
 impl Stroke {
+    pub(super) const fn solid(colour: RGBColor) -> Self {
+        Self {
+            colour,
+            width: 2,
+            dash: None,
+        }
+    }
+
+    pub(super) const fn dashed(colour: RGBColor) -> Self {
+        Self {
+            dash: Some((9, 4)),
+            ..Self::solid(colour)
+        }
+    }
+
+    pub(super) const fn dotted(colour: RGBColor) -> Self {
+        Self {
+            dash: Some((3, 3)),
+            ..Self::solid(colour)
+        }
+    }
+
+    const fn thin(self) -> Self {
+        Self { width: 1, ..self }
+    }
+
     pub(super) fn style(&self, pen: Pen) -> ShapeStyle {
         pen.line(self.colour, self.width)
     }
@@ -55,18 +81,15 @@ impl Stroke {
 
 /// The curves, one for each failure time, over and over.
 pub(super) const CURVES: [Stroke; 6] = [
-    curve(0, None),
-    curve(1, Some((9, 4))),
-    curve(2, Some((3, 3))),
-    curve(3, None),
-    curve(4, Some((9, 4))),
-    curve(5, Some((3, 3))),
+    Stroke::solid(SEQUENCE[0]),
+    Stroke::dashed(SEQUENCE[1]),
+    Stroke::dotted(SEQUENCE[2]),
+    Stroke::solid(SEQUENCE[3]),
+    Stroke::dashed(SEQUENCE[4]),
+    Stroke::dotted(SEQUENCE[5]),
 ];
 
-const fn curve(colour: usize, dash: Option<(u32, u32)>) -> Stroke {
-    Stroke {
-        colour: SEQUENCE[colour],
-        width: 2,
-        dash,
-    }
-}
+/// A time at which something happens.
+pub(super) const EVENT: Stroke = Stroke::dotted(GREY).thin();
+/// A bound.
+pub(super) const BOUND: Stroke = Stroke::dashed(VERMILION).thin();

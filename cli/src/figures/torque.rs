@@ -5,55 +5,10 @@ use plotters::prelude::DrawingBackend;
 use ulna::experiment::{Case, Method, Series, Study};
 
 use super::chart::{Axes, Key, legend, panel, range};
-use super::stroke::Stroke;
-use super::style::{BLUE, GREEN, GREY, ORANGE, Pen, VERMILION};
+use super::law::{LAWS, WITHOUT, WITHOUT_LABEL};
+use super::stroke::{BOUND, EVENT};
+use super::style::Pen;
 use super::{Area, Drawn, Figure};
-
-const WITHOUT: Stroke = Stroke {
-    colour: GREY,
-    width: 2,
-    dash: None,
-};
-const RATED: Stroke = Stroke {
-    colour: VERMILION,
-    width: 1,
-    dash: Some((6, 4)),
-};
-const LOCK: Stroke = Stroke {
-    colour: GREY,
-    width: 1,
-    dash: Some((2, 3)),
-};
-/// The laws that are drawn over the torque without them.
-pub(super) const LAWS: [(Method, &str, Stroke); 3] = [
-    (
-        Method::Projected,
-        "Eq. 20 (force kept)",
-        Stroke {
-            colour: ORANGE,
-            width: 2,
-            dash: Some((9, 4)),
-        },
-    ),
-    (
-        Method::Optimal,
-        "optimal (force kept)",
-        Stroke {
-            colour: GREEN,
-            width: 2,
-            dash: Some((3, 3)),
-        },
-    ),
-    (
-        Method::PerJoint,
-        "Eq. 16 (force bent)",
-        Stroke {
-            colour: BLUE,
-            width: 2,
-            dash: None,
-        },
-    ),
-];
 
 /// For each of some joints: the torque over the whole motion, and beside it around the lock.
 pub(crate) struct Torques<'s> {
@@ -72,11 +27,10 @@ impl Figure for Torques<'_> {
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
         let (head, body) = area.split_vertically(pen.px(34));
         let rated = self.study.case(Method::PerJoint).rated_torque.as_ref();
-        let mut entries = vec![(Key::Stroke(WITHOUT), "without suppression".to_owned())];
-        let laws = LAWS.iter().rev();
-        entries.extend(laws.map(|(_, label, stroke)| (Key::Stroke(*stroke), (*label).to_owned())));
+        let mut entries = vec![(Key::Stroke(WITHOUT), WITHOUT_LABEL.to_owned())];
+        entries.extend(LAWS.map(|law| (Key::Stroke(law.stroke), law.label.to_owned())));
         if rated.is_some() {
-            entries.push((Key::Stroke(RATED), "rated torque".to_owned()));
+            entries.push((Key::Stroke(BOUND), "rated torque".to_owned()));
         }
         legend(&head, pen, &entries)?;
         let rows = body.split_evenly((self.joints.len(), 1));
@@ -108,15 +62,10 @@ impl Torques<'_> {
             points.filter(|(time, _)| seen(*time)).collect::<Vec<_>>()
         };
         let planned = curve(self.study.case(Method::PerJoint), |series| &series.planned);
-        let curves: Vec<_> = LAWS
-            .iter()
-            .map(|(method, _, stroke)| {
-                (
-                    curve(self.study.case(*method), |series| &series.torque),
-                    *stroke,
-                )
-            })
-            .collect();
+        let curves = LAWS.map(|law| {
+            let case = self.study.case(law.method);
+            (curve(case, |series| &series.torque), law.stroke)
+        });
         let rated = self.study.case(Method::PerJoint).rated_torque.as_ref();
         let rated = rated
             .map(|rated| rated[joint])
@@ -142,12 +91,13 @@ impl Torques<'_> {
                 y: (&format!("torque in {}", self.units[joint]), y.clone()),
             },
         )?;
-        LOCK.curve(&mut panel, pen, &[(lock, y.start), (lock, y.end)])?;
+        EVENT.curve(&mut panel, pen, &[(lock, y.start), (lock, y.end)])?;
         for limit in rated.into_iter().flat_map(|rated| [rated, -rated]) {
-            RATED.curve(&mut panel, pen, &[(x.start, limit), (x.end, limit)])?;
+            BOUND.curve(&mut panel, pen, &[(x.start, limit), (x.end, limit)])?;
         }
         WITHOUT.curve(&mut panel, pen, &planned)?;
-        for (points, stroke) in &curves {
+        // The first law of the legend lies on top.
+        for (points, stroke) in curves.iter().rev() {
             stroke.curve(&mut panel, pen, points)?;
         }
         Ok(())

@@ -4,31 +4,14 @@ use plotters::prelude::DrawingBackend;
 use ulna::experiment::{Method, Truth, TruthRun};
 
 use super::chart::{Axes, Key, double_log_panel, legend, panel, range};
-use super::stroke::CURVES;
-use super::stroke::Stroke;
+use super::stroke::{CURVES, EVENT, Stroke};
 use super::style::{BLACK, BLUE, GREY, Marker, Pen, VERMILION};
 use super::{Area, Drawn, Figure};
 
-const PREDICTED: Stroke = Stroke {
-    colour: GREY,
-    width: 2,
-    dash: None,
-};
-const SIMULATED: Stroke = Stroke {
-    colour: BLACK,
-    width: 2,
-    dash: None,
-};
-const PREDICTED_EQ16: Stroke = Stroke {
-    colour: VERMILION,
-    width: 2,
-    dash: Some((3, 3)),
-};
-const SIMULATED_EQ16: Stroke = Stroke {
-    colour: BLUE,
-    width: 2,
-    dash: Some((9, 4)),
-};
+const PREDICTED: Stroke = Stroke::solid(GREY);
+const SIMULATED: Stroke = Stroke::solid(BLACK);
+const PREDICTED_EQ16: Stroke = Stroke::dotted(VERMILION);
+const SIMULATED_EQ16: Stroke = Stroke::dashed(BLUE);
 
 /// The torques of some joints around a lock, predicted and simulated.
 pub(crate) struct SimulatedTorques<'s> {
@@ -66,6 +49,7 @@ impl Figure for SimulatedTorques<'_> {
                 .collect();
             let all = || points.iter().flat_map(|(points, _)| points);
             let time = range(all().map(|point| point.0));
+            let torque = range(all().map(|point| point.1));
             let what = if self.truth.failed_joints.contains(joint) {
                 " (locks; brake and motor)"
             } else {
@@ -78,12 +62,17 @@ impl Figure for SimulatedTorques<'_> {
                 &Axes {
                     title: &title,
                     x: ("time in s", time),
-                    y: (
-                        &format!("torque in {}", self.units[*joint]),
-                        range(all().map(|point| point.1)),
-                    ),
+                    y: (&format!("torque in {}", self.units[*joint]), torque.clone()),
                 },
             )?;
+            let lock = self.truth.failure_time;
+            for event in [lock, lock + self.truth.brake_time] {
+                EVENT.curve(
+                    &mut panel,
+                    pen,
+                    &[(event, torque.start), (event, torque.end)],
+                )?;
+            }
             for (points, stroke) in &points {
                 stroke.curve(&mut panel, pen, points)?;
             }
@@ -173,13 +162,13 @@ impl Figure for Convergence<'_> {
             &body,
             pen,
             &Axes {
-                title: "ever shorter brakes",
+                title: "impulse of ever shorter brakes",
                 x: (
                     "brake time in s",
                     span(&mut all.iter().map(|point| point.0)),
                 ),
                 y: (
-                    "impulse of the brakes: relative difference from the ideal lock",
+                    "relative difference from the ideal lock",
                     span(&mut all.iter().map(|point| point.1)),
                 ),
             },

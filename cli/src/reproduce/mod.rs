@@ -1,9 +1,11 @@
 //! `ulna reproduce`: the experiments of a scenario.
 
+mod csv;
 mod drawings;
 mod page;
 mod results;
 mod table;
+mod words;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -16,17 +18,19 @@ use ulna::experiment::{ExperimentError, Laboratory, Study, Truth};
 use ulna::scenario::Experiment;
 
 use crate::arms::{ForArm, GENERATED, with_arm};
-use crate::output::Files;
+use crate::output::{self, Files};
 use crate::{Verdict, console};
 
 /// The scenario that is repeated when none is named; compiled in, so that the program needs no repository.
 const PAPER_LIKE: &str = include_str!("../../../scenarios/paper_like.toml");
 const OUTPUT: &str = "out";
+/// What was found, in words.
+const PAGE: &str = "README.md";
 
 /// Repeat the paper's experiments: its tables beside ours, figures, series and results.json
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  ulna reproduce scenarios/paper_like.toml --output target/reproduce"
+    after_help = "Example:\n  ulna reproduce scenarios/tool_path.toml --output target/reproduce"
 )]
 pub(crate) struct Arguments {
     /// The experiments (TOML); without it the paper's, as far as they can be repeated
@@ -55,16 +59,20 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
             GENERATED,
         )?,
     };
+    output::check_folder(&arguments.output)?;
     let findings = with_arm(&scenario.arm, Findings::of(&scenario))??;
     table::write(&scenario, &findings, out)?;
     out.flush()?;
     let mut files = Files::default();
-    files.add("README.md", page::write(&scenario, &findings)?);
+    files.add(PAGE, page::write(&scenario, &findings)?);
     results::add(&mut files, &scenario, &findings)?;
     drawings::add(&mut files, &scenario, &findings)?;
-    for path in files.write_to(&arguments.output)? {
-        console::note(&format!("wrote {}", path.display()));
-    }
+    let written = files.write_to(&arguments.output)?;
+    console::note(&format!(
+        "wrote {} files to {}; {PAGE} says what was found",
+        written.len(),
+        arguments.output.display()
+    ));
     Ok(Verdict::Pass)
 }
 

@@ -8,7 +8,7 @@ use ulna::experiment::{Case, Method, Study, Truth};
 use ulna::scenario::{Experiment, Reference, Scenario};
 
 use super::Findings;
-use super::results::{name, solve_status};
+use super::words::{name, seconds, significant, solve_status, what_locks};
 
 /// Columns of a table of impacts, one for each method.
 const METHODS: [(Method, &str); 4] = [
@@ -30,6 +30,11 @@ pub(super) fn write(
         let studies = findings.of_section(experiment);
         for study in &studies {
             let reference = reference_at(experiment, study.failure_time);
+            // Some references have coefficients alone.
+            let reference = reference.filter(|reference| {
+                let mut figures = reference.before.iter().chain(&reference.after);
+                figures.any(Option::is_some)
+            });
             writeln!(
                 out,
                 "\nimpact torque in N m at {} s{}",
@@ -38,8 +43,9 @@ pub(super) fn write(
             )?;
             writeln!(out, "{}", impacts(scenario, study, reference))?;
         }
-        writeln!(out, "\ncoefficients k_d of Eq. 16, in 1e7")?;
-        writeln!(out, "{}", coefficients(experiment, &studies))?;
+        let exponent = exponent(&studies);
+        writeln!(out, "\ncoefficients k_d of Eq. 16, in 1e{exponent}")?;
+        writeln!(out, "{}", coefficients(experiment, &studies, exponent))?;
     }
     if let Some(experiment) = scenario.experiments.first() {
         writeln!(out, "\nsearches for {}", experiment.section)?;
@@ -55,23 +61,16 @@ pub(super) fn write(
     Ok(())
 }
 
-/// The joints that lock, counted from 1.
-pub(super) fn failed_joints(scenario: &Scenario) -> String {
-    let joints = scenario.failed_joints.iter();
-    let names: Vec<_> = joints.map(|joint| (joint + 1).to_string()).collect();
-    names.join(" and ")
-}
-
 fn heading(scenario: &Scenario) -> String {
     let description = match scenario.description.as_str() {
         "" => String::new(),
         description => format!(" ({description})"),
     };
     format!(
-        "{}: arm {}, joint {} locks{description}",
+        "{}: arm {}, {}{description}",
         scenario.name,
         scenario.arm.name(),
-        failed_joints(scenario)
+        what_locks(scenario)
     )
 }
 
@@ -90,11 +89,7 @@ fn beside(reference: Option<&Reference>) -> String {
 }
 
 /// A row for each joint; below them what concerns all.
-fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) -> Table {
-    let reference = reference.filter(|reference| {
-        let mut figures = reference.before.iter().chain(&reference.after);
-        figures.any(Option::is_some)
-    });
+fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) -> String {
     let beside = |figure: fn(&Reference, usize) -> Option<f64>, joint: usize| {
         reference.map(|reference| figure(reference, joint).map_or_else(String::new, significant))
     };
@@ -118,7 +113,7 @@ fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) ->
     let per_method =
         |cell: &dyn Fn(&Case) -> String| METHODS.map(|(method, _)| cell(study.case(method)));
 
-    let mut table = plain_table();
+    let mut table = Table::new();
     let titles = METHODS.map(|(_, title)| title.to_owned());
     let there = || reference.map(|_| "there".to_owned());
     table.set_header(row(
@@ -163,12 +158,25 @@ fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) ->
         [blank(), blank()],
         per_method(&|case| significant(case.flight.max_force_error)),
     ));
-    table
+    plain(table, &[0])
 }
 
-/// A row for each failure time and source, a column for each joint.
-fn coefficients(experiment: &Experiment, studies: &[&Study]) -> Table {
-    let mut table = plain_table();
+/// The power of ten that leaves the largest coefficient of Eq. 16 one digit before the point.
+fn exponent(studies: &[&Study]) -> i32 {
+    let coefficients = studies
+        .iter()
+        .flat_map(|study| &study.case(Method::PerJoint).coefficients);
+    let largest = coefficients.fold(0.0_f64, |largest, k| largest.max(k.abs()));
+    if largest > 0.0 {
+        largest.log10().floor() as i32
+    } else {
+        0
+    }
+}
+
+/// A row for each failure time and source, a column for each joint; in units of 10 to the `exponent`.
+fn coefficients(experiment: &Experiment, studies: &[&Study], exponent: i32) -> String {
+    let mut table = Table::new();
     let joints = studies
         .first()
         .map_or(0, |study| study.case(Method::PerJoint).coefficients.len());
@@ -178,6 +186,7 @@ fn coefficients(experiment: &Experiment, studies: &[&Study]) -> Table {
             .into_iter()
             .chain(titles),
     );
+    let cell = |value: f64| format!("{:.2}", value / 10_f64.powi(exponent));
     for study in studies {
         let time = format!("{} s", study.failure_time);
         for (method, title) in [
@@ -185,27 +194,23 @@ fn coefficients(experiment: &Experiment, studies: &[&Study]) -> Table {
             (Method::PerJoint, "exactly"),
         ] {
             let values = study.case(method).coefficients.iter();
-            let cells = values.map(|value| format!("{:.2}", value / 1e7));
+            let cells = values.map(|value| cell(*value));
             table.add_row([time.clone(), title.to_owned()].into_iter().chain(cells));
         }
         if let Some(reference) = reference_at(experiment, study.failure_time)
             && reference.coefficients.iter().any(Option::is_some)
         {
             let values = reference.coefficients.iter();
-            let cells = values
-                .map(|value| value.map_or_else(String::new, |value| format!("{:.2}", value / 1e7)));
+            let cells = values.map(|value| value.map_or_else(String::new, cell));
             table.add_row([time, reference.source.clone()].into_iter().chain(cells));
         }
     }
-    if let Some(column) = table.column_mut(1) {
-        column.set_cell_alignment(CellAlignment::Left);
-    }
-    table
+    plain(table, &[1])
 }
 
 /// A row for each search: what it took, and what it left.
-fn searches(studies: &[&Study]) -> Table {
-    let mut table = plain_table();
+fn searches(studies: &[&Study]) -> String {
+    let mut table = Table::new();
     table.set_header([
         "at",
         "law",
@@ -232,12 +237,12 @@ fn searches(studies: &[&Study]) -> Table {
             significant(case.healthy_impact().1),
         ]);
     }
-    table
+    plain(table, &[1, 2])
 }
 
 /// A row for each brake time.
-fn convergence(truths: &[Truth]) -> Table {
-    let mut table = plain_table();
+fn convergence(truths: &[Truth]) -> String {
+    let mut table = Table::new();
     table.set_header([
         "at",
         "joint",
@@ -253,7 +258,7 @@ fn convergence(truths: &[Truth]) -> Table {
                 table.add_row([
                     format!("{} s", truth.failure_time),
                     (joint + 1).to_string(),
-                    format!("{:e}", point.brake_time),
+                    seconds(point.brake_time),
                     format!("{:.6}", point.impulse[i]),
                     format!("{:.6}", point.ideal[i]),
                     format!("{:.1e}", point.relative_difference),
@@ -262,27 +267,16 @@ fn convergence(truths: &[Truth]) -> Table {
             }
         }
     }
-    table
+    plain(table, &[])
 }
 
-/// Without lines; numbers to the right.
-fn plain_table() -> Table {
-    let mut table = Table::new();
+/// Without lines; the columns `left` to the left, numbers to the right.
+fn plain(mut table: Table, left: &[usize]) -> String {
     table.load_style(presets::NOTHING);
-    table
-}
-
-/// Four digits; what is rounding is 0.
-pub(super) fn significant(value: f64) -> String {
-    let size = value.abs();
-    if size < 1e-9 {
-        "0".to_owned()
-    } else if size < 1e-3 {
-        format!("{value:.1e}")
-    } else if size >= 1e5 {
-        format!("{value:.3e}")
-    } else {
-        let decimals = (3.0 - size.log10().floor()).clamp(0.0, 5.0) as usize;
-        format!("{value:.decimals$}")
+    for (index, column) in table.column_iter_mut().enumerate() {
+        if !left.contains(&index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
     }
+    table.trim_fmt()
 }

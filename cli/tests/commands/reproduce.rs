@@ -8,7 +8,7 @@ use assert_cmd::assert::Assert;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{stderr, stdout, ulna};
+use crate::support::{examples, root, stderr, stdout, ulna};
 
 /// A folder with `quick.toml`: the paper-like scenario with long control cycles and one failure time, and `edits`.
 fn quick_scenario(edits: &[(&str, &str)]) -> TempDir {
@@ -96,9 +96,12 @@ fn everything_is_printed_and_written() {
     let output = folder.path().join("out");
     let written = files(&output);
     let err = stderr(&run);
-    for file in &written {
-        assert!(err.contains(file), "{file} is not in the list:\n{err}");
-    }
+    let count = format!("wrote {} files to ", written.len());
+    assert!(err.starts_with(&count), "{err}");
+    assert!(
+        err.ends_with("/out; README.md says what was found\n"),
+        "{err}"
+    );
     let tables = [
         "README.md",
         "results.json",
@@ -150,7 +153,12 @@ fn tables_stand_beside_the_papers(out: &str) {
             "-9.00", "-8.50", "-9.00", "-8.50", "-12.00", "-10.00", "0.00"
         ]
     );
+    assert!(
+        out.contains("coefficients k_d of Eq. 16, in 1e7\n"),
+        "{out}"
+    );
     assert!(out.contains("with ever shorter brakes"), "{out}");
+    assert!(!out.contains(" \n"), "blanks at the end of a line:\n{out}");
 }
 
 fn results_are_as_promised(output: &Path) {
@@ -280,19 +288,43 @@ rated_torque = "table"
     );
     let text = fs::read_to_string(folder.path().join("out/results.json")).unwrap();
     let results: Value = serde_json::from_str(&text).unwrap();
-    let case = &results["cases"][0];
-    assert_eq!(numbers(case, "rated_torque"), [40.0, 15.0]);
-    let before = numbers(case, "impact_before");
-    assert!(before.iter().all(|impact| *impact > 0.0), "{before:?}");
+    // Two joints and a task of two rows: no torque leaves the tool force alone, and no law invents one from rounding.
+    for case in results["cases"].as_array().unwrap() {
+        assert_eq!(numbers(case, "rated_torque"), [40.0, 15.0]);
+        let before = numbers(case, "impact_before");
+        assert!(before.iter().all(|impact| *impact > 0.0), "{before:?}");
+        assert_eq!(numbers(case, "impact_after"), before);
+        assert_eq!(numbers(case, "coefficients"), [0.0, 0.0]);
+        assert_eq!(case["max_force_error"], 0.0);
+    }
+}
+
+#[test]
+fn the_example_of_the_help_works_and_names_the_joints_that_lock_together() {
+    let examples = examples("reproduce");
+    assert_eq!(examples.len(), 1);
+    let out = stdout(&ulna(&examples[0].split(' ').collect::<Vec<_>>()).code(0));
+    assert!(
+        out.starts_with("tool_path: arm ssrms, joints 2 and 4 lock ("),
+        "{out}"
+    );
+    let text = fs::read_to_string(root().join("target/reproduce/results.json")).unwrap();
+    let results: Value = serde_json::from_str(&text).unwrap();
+    let cases = results["cases"].as_array().unwrap();
+    assert_eq!(cases.len(), 6);
+    for case in cases {
+        assert_eq!(numbers(case, "failed_joint"), [2.0, 4.0]);
+    }
 }
 
 #[test]
 fn an_output_that_cannot_be_written_is_named() {
     let folder = quick_scenario(&[]);
     fs::write(folder.path().join("out"), "a file").unwrap();
-    let err = stderr(&reproduce(&folder).code(1));
+    // Before the work, not after it.
+    let err = stderr(&reproduce(&folder).code(1).stdout(""));
     assert!(err.contains("error: cannot make the folder"), "{err}");
-    assert!(err.contains("/out"), "{err}");
+    assert!(err.contains("/out is a file"), "{err}");
 }
 
 #[test]

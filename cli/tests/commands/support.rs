@@ -5,12 +5,16 @@ use std::path::Path;
 use assert_cmd::Command;
 use assert_cmd::assert::Assert;
 
+/// The repository's root.
+pub(crate) fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
+}
+
 /// `ulna` with `arguments`, in the repository's root.
 pub(crate) fn ulna(arguments: &[&str]) -> Assert {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let mut command = Command::cargo_bin("ulna").unwrap();
     command
-        .current_dir(root)
+        .current_dir(root())
         .env_remove("NO_COLOR")
         .args(arguments)
         .assert()
@@ -35,4 +39,16 @@ pub(crate) fn folder_with_bad_table() -> tempfile::TempDir {
     let bad = format!("{first}[[joint]]{second}");
     std::fs::write(folder.path().join("bad.toml"), bad).unwrap();
     folder
+}
+
+/// The lines of the help of `command` that show how it is called.
+pub(crate) fn examples(command: &str) -> Vec<String> {
+    let help = stdout(&ulna(&[command, "--help"]).code(0).stderr(""));
+    let (_, examples) = help
+        .split_once("Example")
+        .unwrap_or_else(|| panic!("no example:\n{help}"));
+    let calls = examples
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("ulna "));
+    calls.map(str::to_owned).collect()
 }

@@ -51,8 +51,9 @@ const FORCE_SPREAD: Bound = Bound {
     help: "a spread is the largest deviation, not negative",
 };
 
-/// The most control cycles in a motion.
-const MAX_CYCLES: f64 = 1e6;
+/// The most control cycles in a motion: a search keeps each in memory, with all that a compensation is made of.
+const MAX_CYCLES: f64 = 1e5;
+
 /// What the lists of a scenario are checked against.
 struct Reader<'s> {
     sink: &'s Sink,
@@ -131,19 +132,23 @@ impl Reader<'_> {
         });
         let times = table.times.as_ref().and_then(|times| {
             self.not_empty(times, "times = [10.0]")?;
-            let check = |time: &Option<Located<f64>>| self.time(time.as_ref()?, duration);
             let mut checked: Vec<f64> = Vec::new();
-            let read: Vec<_> = times.value.iter().map(check).collect();
-            for (time, written) in read.into_iter().zip(&times.value) {
-                if checked.contains(&time?) {
-                    let written = written.as_ref()?;
+            let mut sound = true;
+            for written in &times.value {
+                let written = written.as_ref();
+                let time = written.and_then(|written| self.time(written, duration));
+                let Some((written, time)) = written.zip(time) else {
+                    sound = false;
+                    continue;
+                };
+                if checked.contains(&time) {
                     let message = format!("{} is there twice", written.name);
                     self.refuse(&written.span, message, "repeated", "write each time once");
-                    return None;
+                    sound = false;
                 }
-                checked.push(time?);
+                checked.push(time);
             }
-            Some(checked)
+            sound.then_some(checked)
         });
         Some((joints?, times?))
     }

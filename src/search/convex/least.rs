@@ -9,14 +9,14 @@ use crate::search::{SearchError, SolveStatus};
 
 pub(super) type Solve = Result<Option<Solution>, SearchError>;
 
-/// `min ‖step + R x‖` within the limits: by the pseudoinverse if they do not bind.
+/// `min ‖step + R x‖` within the limits: by the pseudoinverse if they do not bind. R comes with the size of what it is computed from.
 pub(super) fn least_squares(
-    impact: &DMatrix<f64>,
+    (impact, size): (&DMatrix<f64>, f64),
     step: &DVector<f64>,
     limits: &TorqueLimits,
     solve: impl FnOnce(Program) -> Solve,
 ) -> Result<Solution, SearchError> {
-    let x = -pseudo_inverse(impact) * step;
+    let x = -pseudo_inverse(impact, size) * step;
     if limits.admit(&x) {
         return Ok(Solution::closed_form(x));
     }
@@ -79,7 +79,7 @@ impl Solution {
         outcome: &DMatrix<f64>,
         limits: &TorqueLimits,
     ) -> Self {
-        let least = pseudo_inverse(outcome) * (outcome * &self.x);
+        let least = pseudo_inverse(outcome, outcome.amax()) * (outcome * &self.x);
         if limits.admit(&least) {
             self.x = least;
         }

@@ -8,7 +8,7 @@ use super::conic::{Program, Solution};
 use super::healthy_part;
 use super::least::{least_squares, least_squares_program};
 use super::limits::TorqueLimits;
-use super::pseudo_inverse::{column_space, pseudo_inverse, stack};
+use super::pseudo_inverse::{column_space, null_space, pseudo_inverse, stack};
 use crate::TaskRow;
 use crate::compensation::{Compensation, FreeTorque};
 use crate::search::{Operation, Outcome, Sample, SearchError};
@@ -67,8 +67,8 @@ pub fn optimal<const N: usize>(
     let solution = match priority {
         ForcePriority::Exact | ForcePriority::AtMost(0.0) => {
             // Without limits, within the null space of E.
-            let keeping = DMatrix::identity(variables, variables) - pseudo_inverse(&force) * &force;
-            let x = -(&keeping * pseudo_inverse(&(&impact * &keeping))) * &step;
+            let keeping = null_space(&force);
+            let x = -(&keeping * pseudo_inverse(&(&impact * &keeping), impact.amax())) * &step;
             if limits.admit(&x) {
                 Solution::closed_form(x)
             } else {
@@ -92,7 +92,7 @@ pub fn optimal<const N: usize>(
         ForcePriority::Weight(weight) if weight > 0.0 && weight.is_finite() => {
             let weighted = stack(&impact, &(&force * weight));
             let step = step.clone().resize_vertically(weighted.nrows(), 0.0);
-            least_squares(&weighted, &step, &limits, Program::solve)?
+            least_squares((&weighted, weighted.amax()), &step, &limits, Program::solve)?
         }
         ForcePriority::AtMost(value) => {
             return Err(SearchError::Argument {
@@ -154,7 +154,7 @@ impl<const N: usize> FreeMap<N> {
         for i in 0..N {
             projector.set_column(i, &pose.project(&unit(i)));
         }
-        let null = column_space(&projector.transpose());
+        let null = column_space(&projector.transpose(), 1.0);
         let rows: Vec<usize> = pose.task().iter().map(TaskRow::index).collect();
         let lifted = DMatrix::from_fn(N, rows.len(), |joint, column| {
             let mut wrench = Vector6::zeros();

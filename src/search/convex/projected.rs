@@ -34,7 +34,10 @@ pub fn least_impact<const N: usize>(
         let columns = maps.at.iter().map(|map| map.column(i).amax());
         columns.fold(0.0, f64::max)
     });
-    let active: Vec<usize> = (0..N).filter(|i| size[*i] > NO_SAY * size.amax()).collect();
+    let gradients = operation.samples().iter();
+    let gradient = gradients.map(|sample| sample.pose.gradient.amax());
+    let strongest = gradient.fold(size.amax(), f64::max);
+    let active: Vec<usize> = (0..N).filter(|i| size[*i] > NO_SAY * strongest).collect();
     let scaled = |map: &SMatrix<f64, N, N>| {
         DMatrix::from_fn(N, active.len(), |joint, column| {
             map[(joint, active[column])] / size[active[column]]
@@ -47,7 +50,7 @@ pub fn least_impact<const N: usize>(
     let limits = TorqueLimits::new(operation, samples, active.len());
 
     let solution = match objective {
-        Objective::LeastSquares => least_squares(&impact, &step, &limits, Program::solve)?,
+        Objective::LeastSquares => least_squares((&impact, 1.0), &step, &limits, Program::solve)?,
         Objective::MinMax => min_max(&impact, &step, &limits)?,
     };
     let solution = solution.with_least_variables(&impact, &limits);

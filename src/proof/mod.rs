@@ -3,6 +3,8 @@
 //! `ulna verify`, the tests and whoever generates an arm use it to show that an implementation does what
 //! the textbook formulas of [`SerialChain`] do.
 
+pub mod differences;
+
 use core::f64::consts::PI;
 use core::fmt;
 

@@ -1,8 +1,9 @@
 //! An arm's derivatives against central differences of its own J, M and w_D.
 
-use ulna::Arm;
-use ulna::nalgebra::SVector;
-use ulna::proof::{Deviation, State};
+use nalgebra::SVector;
+
+use super::{Deviation, State};
+use crate::Arm;
 
 /// Step, rad (m): the truncation of the difference and the rounding of what it is taken of are about alike.
 const STEP: f64 = 1e-5;
@@ -13,7 +14,7 @@ const KINK: f64 = 1e3 * STEP;
 ///
 /// What the differences themselves leave is within the tolerances: 1e-9 or so, and more for w_D, whose rounding grows with
 /// the condition of M.
-pub(crate) fn compare<const N: usize>(
+pub fn compare<const N: usize>(
     arm: &impl Arm<N>,
     states: impl Iterator<Item = State<N>>,
 ) -> [Deviation; 3] {
@@ -91,40 +92,6 @@ impl Error {
             self.difference
         } else {
             self.difference / self.scale
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use ulna::nalgebra::Vector2;
-    use ulna::{Model, SerialChain, proof};
-
-    use super::*;
-
-    fn planar() -> SerialChain<2> {
-        let table = include_str!("../../arms/planar_2r.toml");
-        let model = Model::parse(table, "planar_2r.toml").unwrap();
-        SerialChain::new(&model).unwrap()
-    }
-
-    #[test]
-    fn right_derivatives_pass() {
-        let arm = planar();
-        let deviations = compare(&arm, proof::states(&arm).take(50));
-        assert!(deviations.iter().all(Deviation::passes), "{deviations:?}");
-        assert!(deviations.iter().all(|deviation| deviation.error > 0.0));
-    }
-
-    #[test]
-    fn derivatives_are_compared_where_they_vanish_and_beside_the_kink_of_w_d() {
-        let arm = planar();
-        for elbow in [0.0, 1e-9, 0.3 * STEP, 20.0 * STEP, KINK] {
-            let errors = errors(&arm, &Vector2::new(0.7, elbow));
-            assert!(
-                errors.iter().all(|error| *error < 1e-6),
-                "{elbow}: {errors:?}"
-            );
         }
     }
 }

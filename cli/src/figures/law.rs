@@ -1,0 +1,37 @@
+//! How the laws look in every figure.
+
+use ulna::experiment::Method;
+
+use super::stroke::Stroke;
+use super::style::{BLUE, GREEN, GREY, ORANGE};
+
+/// A law by its exact search: what it is called, and how it is drawn.
+pub(super) struct Law {
+    pub(super) method: Method,
+    pub(super) label: &'static str,
+    pub(super) stroke: Stroke,
+}
+
+/// In the order of legends.
+pub(super) const LAWS: [Law; 3] = [
+    Law {
+        method: Method::PerJoint,
+        label: "Eq. 16 (force bent)",
+        stroke: Stroke::solid(BLUE),
+    },
+    Law {
+        method: Method::Projected,
+        label: "Eq. 20 (force kept)",
+        stroke: Stroke::dashed(ORANGE),
+    },
+    Law {
+        method: Method::Optimal,
+        label: "optimal (force kept)",
+        stroke: Stroke::dotted(GREEN),
+    },
+];
+
+/// The torque without any.
+pub(super) const WITHOUT: Stroke = Stroke::solid(GREY);
+/// What it is called.
+pub(super) const WITHOUT_LABEL: &str = "without suppression";
