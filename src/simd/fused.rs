@@ -57,20 +57,17 @@ impl Real for Fused {
         sin_cos(self)
     }
 
-    /// Four at a time: the processor has the lanes, too.
+    /// Four at a time, since the processor has the lanes, too; a single one by itself.
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
         let (mut sines, mut cosines) = (angles, angles);
         let mut start = 0;
-        while start < K {
-            let mut four = [0.0; 4];
-            for (lane, angle) in four.iter_mut().enumerate() {
-                *angle = angles[if start + lane < K {
-                    start + lane
-                } else {
-                    start
-                }]
-                .0;
+        while start + 1 < K {
+            let mut four = [angles[start].0; 4];
+            for lane in 1..4 {
+                if start + lane < K {
+                    four[lane] = angles[start + lane].0;
+                }
             }
             let (sin, cos) = Avx2::from(four).sin_cos();
             let (sin, cos) = (<[f64; 4]>::from(sin), <[f64; 4]>::from(cos));
@@ -81,6 +78,9 @@ impl Real for Fused {
                 }
             }
             start += 4;
+        }
+        if start < K {
+            (sines[start], cosines[start]) = angles[start].sin_cos();
         }
         (sines, cosines)
     }
