@@ -48,3 +48,8 @@ pub use real::Real;
 pub use scenario::Scenario;
 pub use trajectory::{JointLimits, JointState, Trajectory, Trapezoid};
 pub use unrolled::Unrolled;
+
+/// The README's examples are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -36,6 +36,21 @@ fn the_checked_in_file_is_what_the_generator_writes() {
 }
 
 #[test]
+fn the_readme_shows_what_the_generator_writes() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let (_, shown) = readme
+        .split_once("becomes, among the rest,\n\n```rust\n")
+        .unwrap();
+    let (shown, _) = shown.split_once("```").unwrap();
+    let flat = |text: &str| text.lines().map(str::trim).collect::<Vec<_>>().join("\n");
+    let generated = flat(&generated());
+    // The doc comment is shortened to its first line.
+    let (doc, code) = shown.split_once('\n').unwrap();
+    assert!(generated.contains(doc), "{doc}");
+    assert!(generated.contains(flat(code).trim_end()), "{code}");
+}
+
+#[test]
 fn all_doors_lead_to_the_same_code() {
     let outputs = ["build_script", "macro", "checked_in"].map(|name| {
         let example = Crate::of_repository(&format!("examples/{name}"));

@@ -13,7 +13,7 @@ use crate::generate;
 #[derive(thiserror::Error)]
 pub enum Error {
     /// Tables have errors, each told with its file and line.
-    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n"))]
     Tables(Vec<TableErrors>),
     /// Two arms would become the same type: the second would hide or replace the first.
     #[error("{second} would become the type `{name}`, as {first} does: rename one of the arms", first = .first.display(), second = .second.display())]
@@ -46,9 +46,12 @@ pub enum Error {
     },
 }
 
-/// `main` of a build script prints its error with `Debug`: the text for people then.
+/// `main` of a build script prints its error with `Debug`, and cargo shows that: the text for people then.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Self::Tables(_) = self {
+            f.write_str("no code for tables with errors\n\n")?;
+        }
         fmt::Display::fmt(self, f)
     }
 }
@@ -66,12 +69,12 @@ impl fmt::Debug for Error {
 /// Paths are relative to the package's root, where cargo runs build scripts. The script runs again when a table changes.
 ///
 /// # Errors
-/// All errors of all tables at once; they are reported to cargo line by line too. Nothing is written then.
+/// All errors of all tables at once, for `main` to return: cargo shows them and stops. Nothing is written then.
 pub fn compile_arms(tables: &[impl AsRef<Path>]) -> Result<(), Error> {
     for table in tables {
         println!("cargo::rerun-if-changed={}", table.as_ref().display());
     }
-    report(compile_into_out_dir(tables).map(drop))
+    compile_into_out_dir(tables).map(drop)
 }
 
 /// [`compile_arms`] for every table of a folder, in alphabetical order, and `$OUT_DIR/arms.rs` over them:
@@ -84,11 +87,8 @@ pub fn compile_arms(tables: &[impl AsRef<Path>]) -> Result<(), Error> {
 pub fn compile_folder(folder: impl AsRef<Path>) -> Result<(), Error> {
     let folder = folder.as_ref();
     println!("cargo::rerun-if-changed={}", folder.display());
-    let result = tables_of(folder).and_then(|tables| {
-        let models = compile_into_out_dir(&tables)?;
-        write_to_out_dir("arms", &list(&models))
-    });
-    report(result)
+    let models = compile_into_out_dir(&tables_of(folder)?)?;
+    write_to_out_dir("arms", &list(&models))
 }
 
 fn tables_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
@@ -125,16 +125,6 @@ fn list(models: &[Model]) -> String {
         includes.collect::<String>(),
         entries.collect::<String>(),
     )
-}
-
-/// Tells cargo of an error, line by line.
-fn report(result: Result<(), Error>) -> Result<(), Error> {
-    if let Err(error) = &result {
-        for line in error.to_string().lines() {
-            println!("cargo::error={line}");
-        }
-    }
-    result
 }
 
 fn compile_into_out_dir(tables: &[impl AsRef<Path>]) -> Result<Vec<Model>, Error> {
@@ -201,5 +191,11 @@ mod tests {
             panic!("absent tables are another error");
         };
         assert_eq!(errors.len(), 2);
+        // What cargo shows of `main`'s error.
+        let shown = format!("{:?}", Error::Tables(errors));
+        assert!(
+            shown.contains("no_such.toml") && shown.contains("../arms"),
+            "{shown}"
+        );
     }
 }
