@@ -25,7 +25,7 @@ use ulna::scenario::ScenarioErrors;
 ///
 /// Without a command: `ulna reproduce`.
 #[derive(Parser)]
-#[command(version)]
+#[command(version, after_help = "Example:\n  ulna check arms/ssrms.toml")]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,

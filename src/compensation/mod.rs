@@ -14,6 +14,7 @@
 mod controller;
 mod limits;
 mod pose;
+mod whitening;
 
 use nalgebra::{SVector, Vector6};
 

@@ -1,8 +1,9 @@
 //! [`TaskPose`]: P, J and ∇w_D in one pose, and the compensation that they make.
 
-use nalgebra::{Cholesky, SMatrix, SVector, Vector6};
+use nalgebra::{SMatrix, SVector, Vector6};
 
 use super::Compensation;
+use super::whitening::Whitening;
 use crate::failure::LockedJoints;
 use crate::null_space::{NEAR_SINGULAR, NullSpace, SINGULAR};
 use crate::{Arm, TaskRows};
@@ -34,36 +35,6 @@ pub struct TaskPose<const N: usize> {
     fade: f64,
 }
 
-/// With M = L Lᵀ and Ĵ = J L⁻ᵀ, `I − Jᵀ J̄ᵀ = L (I − Ĵ†Ĵ) L⁻¹`.
-#[derive(Clone, Copy, Debug)]
-struct Whitening<const N: usize> {
-    /// L.
-    lower: SMatrix<f64, N, N>,
-    /// Ĵ, taken apart.
-    null_space: NullSpace<N>,
-}
-
-impl<const N: usize> Whitening<N> {
-    /// `None` if rounding leaves M without a Cholesky factor, as only absurd arguments can.
-    fn new(
-        mass_matrix: SMatrix<f64, N, N>,
-        jacobian: &SMatrix<f64, 6, N>,
-        task: TaskRows,
-    ) -> Option<Self> {
-        let lower = Cholesky::new(mass_matrix)?.l();
-        let whitened = lower.solve_lower_triangular(&jacobian.transpose())?;
-        Some(Self {
-            lower,
-            null_space: NullSpace::new(&whitened.transpose(), task),
-        })
-    }
-
-    fn project(&self, x: &SVector<f64, N>) -> Option<SVector<f64, N>> {
-        let white = self.lower.solve_lower_triangular(x)?;
-        Some(self.lower * self.null_space.project(&white))
-    }
-}
-
 impl<const N: usize> TaskPose<N> {
     /// Looks at `arm` in `q` with `locked` joints.
     #[inline]
@@ -80,11 +51,10 @@ impl<const N: usize> TaskPose<N> {
         let distance = (null_space.conditioning() - SINGULAR) / (NEAR_SINGULAR - SINGULAR);
         let whitening = match projector {
             Projector::Static => None,
-            Projector::DynamicallyConsistent => Whitening::new(
-                locked.reduce_mass_matrix(&arm.mass_matrix(q)),
-                &reduced,
-                task,
-            ),
+            Projector::DynamicallyConsistent => {
+                let mass_matrix = locked.reduce_mass_matrix(&arm.mass_matrix(q));
+                Whitening::new(&mass_matrix, &reduced, task)
+            }
         };
         Self {
             jacobian,
@@ -113,10 +83,10 @@ impl<const N: usize> TaskPose<N> {
         let x = self.locked.without(x);
         let projected = match self.projector {
             Projector::Static => self.null_space.project(&x),
-            Projector::DynamicallyConsistent => self
-                .whitening
-                .and_then(|whitening| whitening.project(&x))
-                .unwrap_or_else(SVector::zeros),
+            Projector::DynamicallyConsistent => match &self.whitening {
+                Some(whitening) => whitening.project(x),
+                None => SVector::zeros(),
+            },
         };
         projected * self.fade
     }

@@ -46,9 +46,13 @@ impl<'r> HeatMap<'r> {
     /// A line for each joint: medians over all its cases.
     pub(crate) fn summary(&self, scenario: &Scenario) -> String {
         let done = self.rows.iter().filter(|row| row.before.is_some()).count();
+        let without = match self.rows.len() - done {
+            0 => String::new(),
+            count => format!(", {count} without (the column `status` says why)"),
+        };
         let mut lines = vec![
             format!(
-                "{}: arm {}, {} cases, {done} with an outcome; seed {}",
+                "{}: arm {}, {} cases, {done} with an outcome{without}; seed {}",
                 scenario.name,
                 scenario.arm.name(),
                 self.rows.len(),

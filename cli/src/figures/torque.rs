@@ -72,15 +72,21 @@ impl Torques<'_> {
             .filter(|rated| rated.is_finite() && within.is_none());
 
         let all = || curves.iter().flat_map(|(points, _)| points).chain(&planned);
+        let title = match (within, rated) {
+            (Some(_), _) => format!("around the lock at {lock} s"),
+            (None, None) => format!("joint {}", joint + 1),
+            (None, Some(rated)) => {
+                format!("joint {} (rated {rated} {})", joint + 1, self.units[joint])
+            }
+        };
+        // A limit that is far away is not drawn: it would press the curves flat.
+        let largest = all().fold(0.0_f64, |largest, point| largest.max(point.1.abs()));
+        let rated = rated.filter(|rated| *rated <= 1.5 * largest);
         let limits = rated.into_iter().flat_map(|rated| [rated, -rated]);
         let y = range(all().map(|point| point.1).chain(limits));
         let x = match within {
             Some(within) => lock - within..lock + within,
             None => 0.0..all().map(|point| point.0).fold(lock, f64::max),
-        };
-        let title = match within {
-            Some(_) => format!("around the lock at {lock} s"),
-            None => format!("joint {}", joint + 1),
         };
         let mut panel = panel(
             area,

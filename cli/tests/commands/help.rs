@@ -11,7 +11,7 @@ fn every_example_works() {
     if campaign.exists() {
         fs::remove_dir_all(campaign).unwrap();
     }
-    for command in ["check", "generate", "verify", "cost", "campaign"] {
+    for command in ["", "check", "generate", "verify", "cost", "campaign"] {
         let examples = examples(command);
         assert!(!examples.is_empty(), "{command}");
         for example in examples {

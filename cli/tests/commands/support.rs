@@ -41,9 +41,13 @@ pub(crate) fn folder_with_bad_table() -> tempfile::TempDir {
     folder
 }
 
-/// The lines of the help of `command` that show how it is called.
+/// The lines of the help of `command`, or without one of the program, that show how it is called.
 pub(crate) fn examples(command: &str) -> Vec<String> {
-    let help = stdout(&ulna(&[command, "--help"]).code(0).stderr(""));
+    let arguments = match command {
+        "" => vec!["--help"],
+        command => vec![command, "--help"],
+    };
+    let help = stdout(&ulna(&arguments).code(0).stderr(""));
     let (_, examples) = help
         .split_once("Example")
         .unwrap_or_else(|| panic!("no example:\n{help}"));

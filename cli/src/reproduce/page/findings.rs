@@ -163,12 +163,12 @@ pub(super) fn search_in_steps(
     }
     let milliseconds = |method: Method| {
         let searches = studies.iter().map(|study| &study.case(method).search);
-        1e3 * searches.flatten().map(|search| search.seconds).sum::<f64>()
+        significant(1e3 * searches.flatten().map(|search| search.seconds).sum::<f64>())
     };
     writeln!(
         page,
         "**The search in steps.** A grid of step {:.0e} leaves up to half a step of k_d. That is more than 5 % of the impact where the exact \
-         coefficient is only a few steps long: {}. The exact search has no such limit; it took {:.1} ms where the search in steps took {:.1} ms (`search.csv`).\n",
+         coefficient is only a few steps long: {}. The exact search has no such limit; it took {} ms where the search in steps took {} ms (`search.csv`).\n",
         scenario.search.step,
         coarse.join("; "),
         milliseconds(Method::PerJoint),
