@@ -27,19 +27,19 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// Refuses a `folder` that no file can be written to, before the work that leads to the files. Makes nothing.
 pub(crate) fn check_folder(folder: &Path) -> anyhow::Result<()> {
+    // The last ancestor of a relative path is empty: the folder that the program runs in.
     let there = folder.ancestors().find(|path| path.exists());
-    match there {
-        Some(path) if !path.is_dir() => bail!(
+    let there = there.unwrap_or(Path::new("."));
+    if !there.is_dir() {
+        bail!(
             "cannot make the folder {}: {} is a file",
             folder.display(),
-            path.display()
-        ),
-        Some(path) => tempfile::tempfile_in(path)
-            .map(drop)
-            .with_context(|| format!("cannot write to the folder {}", path.display())),
-        // The folder that the program runs in.
-        None => Ok(()),
+            there.display()
+        );
     }
+    tempfile::tempfile_in(there)
+        .map(drop)
+        .with_context(|| format!("cannot write to the folder {}", there.display()))
 }
 
 /// The files of a folder before they are written: what fails on the way leaves nothing behind.

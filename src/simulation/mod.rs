@@ -45,6 +45,7 @@ mod brake;
 mod dormand_prince;
 mod flow;
 mod motion;
+mod outcome;
 mod run;
 
 use core::ops::Range;
@@ -52,11 +53,12 @@ use core::ops::Range;
 use nalgebra::{SVector, Vector6};
 
 use crate::trajectory::{JointState, Trajectory};
-use crate::{Arm, Controller, Cycle, Failure, Status};
+use crate::{Arm, Controller, Cycle, Failure};
 
 pub use brake::{Brake, BrakeProfile, LockImpulse, ideal_lock};
 use flow::Flow;
 pub use flow::Work;
+pub use outcome::{Balance, Ending, Impact, Outcome};
 use run::Run;
 
 /// An arm, its controller, its task and its failure.
@@ -113,7 +115,7 @@ pub enum Control {
     /// At all times: the limit of ever shorter control cycles.
     ///
     /// A cycle whose torque jumps with the state, as it does where the arm goes in and out of
-    /// [`Status::Overloaded`], may have no motion in this limit; the run then ends with [`Ending::StepTooShort`].
+    /// [`Status::Overloaded`](crate::Status::Overloaded), may have no motion in this limit; the run then ends with [`Ending::StepTooShort`].
     #[default]
     Continuous,
     /// Every so many s, one cycle at the failure itself; in between the motors hold their torques.
@@ -166,65 +168,6 @@ impl<const N: usize> Sample<N> {
     pub fn joint_torque(&self) -> SVector<f64, N> {
         self.motor + self.brake
     }
-}
-
-/// What a failure did, beside what was predicted of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Impact<const N: usize> {
-    /// The ideal lock of the same joints in the same state.
-    pub ideal: LockImpulse<N>,
-    /// The brakes' impulses from the failure until the joints stood still, N·m·s (N·s).
-    pub brake_impulse: SVector<f64, N>,
-    /// The change of all rates in that time, rad/s (m/s).
-    pub rate_jump: SVector<f64, N>,
-    /// The change of the planned rates in that time, for the locked joints down to 0: the paper's assumption.
-    pub planned_rate_jump: SVector<f64, N>,
-    /// The change of the joints' torques from just before the failure to just after the brakes' work was done and the controller knew,
-    /// as a control cycle at either time makes them, N·m (N).
-    pub torque_step: SVector<f64, N>,
-    /// The same as the paper predicts it (Eq. 18), for the planned motion at the failure: after minus before, compensation included.
-    pub predicted_step: SVector<f64, N>,
-    /// The largest torques (without sign) seen in any sample from the failure on, N·m (N).
-    pub peak_torque: SVector<f64, N>,
-}
-
-/// How energy and momentum account for the motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Balance<const N: usize> {
-    /// The change of kinetic energy `½ q̇ᵀ M q̇`, J.
-    pub kinetic: f64,
-    /// The work that should account for it.
-    pub work: Work,
-    /// What it does not account for, relative to the largest of these energies.
-    pub energy_error: f64,
-    /// What the impulses do not account for of the change of `M q̇`, relative to the largest entry of both.
-    pub momentum_error: f64,
-}
-
-/// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ending {
-    /// At the end of its span.
-    Complete,
-    /// Where a wrench, a planned state or a torque was no finite number.
-    NotFinite,
-    /// Where the steps ran out: the feedback is far too stiff, for example, or a continuous control has no motion that obeys it.
-    StepTooShort,
-}
-
-/// What comes of a run.
-#[derive(Clone, Copy, Debug)]
-pub struct Outcome<const N: usize> {
-    /// How it ended; all the rest is about the time until then.
-    pub ending: Ending,
-    /// What the failure did; `None` if the run did not come to where its effects are known.
-    pub impact: Option<Impact<N>>,
-    /// The balances over the run.
-    pub balance: Balance<N>,
-    /// The controller's worst status in any sample.
-    pub status: Status,
-    /// Steps of the integration.
-    pub steps: u32,
 }
 
 /// Why a run cannot begin.

@@ -1,13 +1,13 @@
 //! [`ScenarioTable`] → [`Scenario`]: numbers of joints, units, bounds. The last stage that can fail on what the file says.
 
+mod campaign;
 mod experiment;
+mod failure;
 mod motion;
 
 use super::arm::ScenarioArm;
-use super::read::{
-    CampaignTable, FailureTable, List, MotionTable, Number, Numbers, ScenarioTable, SearchTable,
-};
-use super::{BrakeSettings, CampaignSettings, Scenario, SearchGrid};
+use super::read::{List, MotionTable, Number, Numbers, ScenarioTable, SearchTable};
+use super::{BrakeSettings, Scenario, SearchGrid};
 use crate::Joint;
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::table::AngleUnit;
@@ -40,17 +40,6 @@ const STEP: Bound = Bound {
     unit: "",
     help: "a step is positive; the paper's are 1e6 and 1e7",
 };
-const SPREAD: Bound = Bound {
-    range: 0.0..=100.0,
-    unit: "rad (m)",
-    help: "a spread is the largest deviation, not negative",
-};
-const FORCE_SPREAD: Bound = Bound {
-    range: 0.0..=1e7,
-    unit: "N (N m)",
-    help: "a spread is the largest deviation, not negative",
-};
-
 /// The most control cycles in a motion: a search keeps each in memory, with all that a compensation is made of.
 const MAX_CYCLES: f64 = 1e5;
 
@@ -117,61 +106,6 @@ impl ScenarioTable {
 }
 
 impl Reader<'_> {
-    fn failure(
-        &self,
-        table: &FailureTable,
-        duration: Option<f64>,
-    ) -> Option<(Vec<usize>, Vec<f64>)> {
-        let joints = table
-            .joints
-            .as_ref()
-            .and_then(|joints| self.joint_numbers(joints));
-        let joints = joints.map(|mut joints| {
-            joints.sort_unstable();
-            joints
-        });
-        let times = table.times.as_ref().and_then(|times| {
-            self.not_empty(times, "times = [10.0]")?;
-            let mut checked: Vec<f64> = Vec::new();
-            let mut sound = true;
-            for written in &times.value {
-                let written = written.as_ref();
-                let time = written.and_then(|written| self.time(written, duration));
-                let Some((written, time)) = written.zip(time) else {
-                    sound = false;
-                    continue;
-                };
-                if checked.contains(&time) {
-                    let message = format!("{} is there twice", written.name);
-                    self.refuse(&written.span, message, "repeated", "write each time once");
-                    sound = false;
-                }
-                checked.push(time);
-            }
-            sound.then_some(checked)
-        });
-        Some((joints?, times?))
-    }
-
-    /// A time while the arm moves.
-    fn time(&self, time: &Located<f64>, duration: Option<f64>) -> Option<f64> {
-        if time.value >= 0.0 && duration.is_none_or(|duration| time.value < duration) {
-            return Some(time.value);
-        }
-        let most = match duration {
-            Some(duration) => format!("from 0 to below {duration} s"),
-            None => "not negative".to_owned(),
-        };
-        let message = format!("{} is not while the arm moves", time.name);
-        self.refuse(
-            &time.span,
-            message,
-            most,
-            "times count in seconds from the motion's start",
-        );
-        None
-    }
-
     /// Joints counted from 1 in the text, from 0 in the result; each once.
     fn joint_numbers(&self, list: &Located<Numbers>) -> Option<Vec<usize>> {
         self.not_empty(list, "joints = [2]")?;
@@ -223,42 +157,6 @@ impl Reader<'_> {
         Some(SearchGrid {
             start: start?,
             step: step?,
-        })
-    }
-
-    fn campaign(&self, table: &CampaignTable) -> Option<CampaignSettings> {
-        let count = |number: &Option<Located<u64>>, default: u64, most: u64| {
-            let Some(number) = number else {
-                return Some(default);
-            };
-            if (1..=most).contains(&number.value) {
-                return Some(number.value);
-            }
-            let message = format!("{} is out of bounds", number.name);
-            self.refuse(
-                &number.span,
-                message,
-                format!("must be within 1 to {most}"),
-                "write a count",
-            );
-            None
-        };
-        let spread = |number: &Number, default: f64, bound: &Bound| match number {
-            Some(_) => self.bounded(number, bound),
-            None => Some(default),
-        };
-        let cases = count(&table.cases, 10_000, 100_000_000);
-        let failure_times = count(&table.failure_times, 20, 10_000);
-        let start_spread = spread(&table.start_spread, 0.5, &SPREAD);
-        let goal_spread = spread(&table.goal_spread, 0.5, &SPREAD);
-        let force_spread = spread(&table.force_spread, 20.0, &FORCE_SPREAD);
-        Some(CampaignSettings {
-            cases: cases?,
-            seed: table.seed.as_ref().map_or(1, |seed| seed.value),
-            failure_times: failure_times?,
-            start_spread: start_spread?,
-            goal_spread: goal_spread?,
-            force_spread: force_spread?,
         })
     }
 
