@@ -43,7 +43,7 @@ pub enum ExperimentError {
     #[error(transparent)]
     Simulation(#[from] SimulationError),
     /// A simulation did not come to its end.
-    #[error("the simulated lock at {time} s did not come to its end: {ending:?}")]
+    #[error("the simulated lock at {time} s did not come to its end: {ending}")]
     Unfinished {
         /// The failure time, s.
         time: f64,

@@ -1,5 +1,7 @@
 //! What comes of a run: the impact of its failure, the balances, how it ended.
 
+use core::fmt;
+
 use nalgebra::SVector;
 
 use super::{LockImpulse, Work};
@@ -47,6 +49,16 @@ pub enum Ending {
     NotFinite,
     /// Where the steps ran out: the feedback is far too stiff, for example, or a continuous control has no motion that obeys it.
     StepTooShort,
+}
+
+impl fmt::Display for Ending {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Complete => "complete",
+            Self::NotFinite => "a torque or a state is no finite number",
+            Self::StepTooShort => "the steps of the integration ran out",
+        })
+    }
 }
 
 /// What comes of a run.

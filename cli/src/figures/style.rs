@@ -6,6 +6,7 @@ use plotters::element::{Circle, EmptyElement, Polygon};
 use plotters::prelude::DrawingBackend;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle};
+use ulna::JointKind;
 
 use super::Drawn;
 
@@ -106,5 +107,21 @@ impl Marker {
             Self::Triangle => vec![(-r, r), (r, r), (0, -r)],
         };
         area.draw(&(EmptyElement::at(at) + Polygon::new(corners, colour.filled())))
+    }
+}
+
+/// The unit of what a joint bears.
+pub(super) fn unit(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Revolute => "N\u{b7}m",
+        JointKind::Prismatic => "N",
+    }
+}
+
+/// What a joint bears, on an axis.
+pub(super) fn torque_label(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Revolute => "torque in N\u{b7}m",
+        JointKind::Prismatic => "force in N",
     }
 }

@@ -2,12 +2,13 @@
 
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::DrawingBackend;
+use ulna::JointKind;
 use ulna::experiment::{Case, Method, Series, Study};
 
 use super::chart::{Axes, Key, legend, panel, range};
 use super::law::{LAWS, WITHOUT, WITHOUT_LABEL};
 use super::stroke::{BOUND, EVENT};
-use super::style::Pen;
+use super::style::{Pen, torque_label, unit};
 use super::{Area, Drawn, Figure};
 
 /// For each of some joints: the torque over the whole motion, and beside it around the lock.
@@ -15,8 +16,8 @@ pub(crate) struct Torques<'s> {
     pub(crate) study: &'s Study,
     /// Counted from 0.
     pub(crate) joints: &'s [usize],
-    /// "N\u{b7}m", or "N" for a prismatic joint.
-    pub(crate) units: &'s [&'static str],
+    /// Of every joint.
+    pub(crate) kinds: &'s [JointKind],
 }
 
 impl Figure for Torques<'_> {
@@ -26,10 +27,13 @@ impl Figure for Torques<'_> {
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
         let (head, body) = area.split_vertically(pen.px(34));
-        let rated = self.study.case(Method::PerJoint).rated_torque.as_ref();
         let mut entries = vec![(Key::Stroke(WITHOUT), WITHOUT_LABEL.to_owned())];
         entries.extend(LAWS.map(|law| (Key::Stroke(law.stroke), law.label.to_owned())));
-        if rated.is_some() {
+        if self
+            .joints
+            .iter()
+            .any(|joint| self.near_limit(*joint).is_some())
+        {
             entries.push((Key::Stroke(BOUND), "rated torque".to_owned()));
         }
         legend(&head, pen, &entries)?;
@@ -45,6 +49,21 @@ impl Figure for Torques<'_> {
 }
 
 impl Torques<'_> {
+    /// A joint's rated torque, if it has one.
+    fn rated(&self, joint: usize) -> Option<f64> {
+        let rated = self.study.case(Method::PerJoint).rated_torque.as_ref();
+        rated
+            .map(|rated| rated[joint])
+            .filter(|rated| rated.is_finite())
+    }
+
+    /// A rated torque that is worth drawing: one that is far away would press the curves flat.
+    fn near_limit(&self, joint: usize) -> Option<f64> {
+        let largest = LAWS.map(|law| self.study.case(law.method).flight.max_torque[joint]);
+        let largest = largest.into_iter().fold(0.0, f64::max);
+        self.rated(joint).filter(|rated| *rated <= 1.5 * largest)
+    }
+
     /// One joint over the whole motion, or `within` so many seconds of the lock.
     fn joint<DB: DrawingBackend>(
         &self,
@@ -66,24 +85,22 @@ impl Torques<'_> {
             let case = self.study.case(law.method);
             (curve(case, |series| &series.torque), law.stroke)
         });
-        let rated = self.study.case(Method::PerJoint).rated_torque.as_ref();
-        let rated = rated
-            .map(|rated| rated[joint])
-            .filter(|rated| rated.is_finite() && within.is_none());
+        let limit = self.near_limit(joint).filter(|_| within.is_none());
+        let limits = || limit.into_iter().flat_map(|limit| [limit, -limit]);
 
         let all = || curves.iter().flat_map(|(points, _)| points).chain(&planned);
-        let title = match (within, rated) {
+        let title = match (within, self.rated(joint)) {
             (Some(_), _) => format!("around the lock at {lock} s"),
             (None, None) => format!("joint {}", joint + 1),
             (None, Some(rated)) => {
-                format!("joint {} (rated {rated} {})", joint + 1, self.units[joint])
+                format!(
+                    "joint {} (rated {rated} {})",
+                    joint + 1,
+                    unit(self.kinds[joint])
+                )
             }
         };
-        // A limit that is far away is not drawn: it would press the curves flat.
-        let largest = all().fold(0.0_f64, |largest, point| largest.max(point.1.abs()));
-        let rated = rated.filter(|rated| *rated <= 1.5 * largest);
-        let limits = rated.into_iter().flat_map(|rated| [rated, -rated]);
-        let y = range(all().map(|point| point.1).chain(limits));
+        let y = range(all().map(|point| point.1).chain(limits()));
         let x = match within {
             Some(within) => lock - within..lock + within,
             None => 0.0..all().map(|point| point.0).fold(lock, f64::max),
@@ -94,11 +111,11 @@ impl Torques<'_> {
             &Axes {
                 title: &title,
                 x: ("time in s", x.clone()),
-                y: (&format!("torque in {}", self.units[joint]), y.clone()),
+                y: (torque_label(self.kinds[joint]), y.clone()),
             },
         )?;
         EVENT.curve(&mut panel, pen, &[(lock, y.start), (lock, y.end)])?;
-        for limit in rated.into_iter().flat_map(|rated| [rated, -rated]) {
+        for limit in limits() {
             BOUND.curve(&mut panel, pen, &[(x.start, limit), (x.end, limit)])?;
         }
         WITHOUT.curve(&mut panel, pen, &planned)?;

@@ -1,11 +1,12 @@
 //! The simulated lock beside the predicted one, and the limit of ever shorter brakes.
 
 use plotters::prelude::DrawingBackend;
+use ulna::JointKind;
 use ulna::experiment::{Method, Truth, TruthRun};
 
 use super::chart::{Axes, Key, double_log_panel, legend, panel, range};
 use super::stroke::{CURVES, EVENT, Stroke};
-use super::style::{BLACK, BLUE, GREY, Marker, Pen, VERMILION};
+use super::style::{BLACK, BLUE, GREY, Marker, Pen, VERMILION, torque_label};
 use super::{Area, Drawn, Figure};
 
 const PREDICTED: Stroke = Stroke::solid(GREY);
@@ -18,8 +19,8 @@ pub(crate) struct SimulatedTorques<'s> {
     pub(crate) truth: &'s Truth,
     /// Counted from 0.
     pub(crate) joints: &'s [usize],
-    /// "N·m", or "N" for a prismatic joint.
-    pub(crate) units: &'s [&'static str],
+    /// Of every joint.
+    pub(crate) kinds: &'s [JointKind],
 }
 
 impl Figure for SimulatedTorques<'_> {
@@ -62,7 +63,7 @@ impl Figure for SimulatedTorques<'_> {
                 &Axes {
                     title: &title,
                     x: ("time in s", time),
-                    y: (&format!("torque in {}", self.units[*joint]), torque.clone()),
+                    y: (torque_label(self.kinds[*joint]), torque.clone()),
                 },
             )?;
             let lock = self.truth.failure_time;

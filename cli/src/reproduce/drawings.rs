@@ -18,18 +18,18 @@ pub(super) fn add(
     scenario: &Scenario,
     findings: &Findings,
 ) -> anyhow::Result<()> {
-    let units: Vec<_> = scenario
+    let kinds: Vec<_> = scenario
         .arm
         .joints()
         .iter()
-        .map(|joint| unit(joint.kind))
+        .map(|joint| joint.kind)
         .collect();
     let of_experiments = scenario.experiments.par_iter().map(|experiment| {
         let studies = findings.of_section(experiment);
-        draw(experiment, &studies, &units)
+        draw(experiment, &studies, &kinds)
     });
     let of_truth = rayon::iter::once(&findings.truths).map(|truths| match truths {
-        Ok(truths) => draw_truth(truths, &units),
+        Ok(truths) => draw_truth(truths, &kinds),
         Err(_) => Ok(Vec::new()),
     });
     let drawn = of_experiments.chain(of_truth);
@@ -43,7 +43,7 @@ pub(super) fn add(
 fn draw(
     experiment: &Experiment,
     studies: &[&Study],
-    units: &[&'static str],
+    kinds: &[JointKind],
 ) -> anyhow::Result<Vec<Drawing>> {
     let mut drawings = Vec::new();
     for figure in &experiment.figures {
@@ -57,7 +57,7 @@ fn draw(
                         &Torques {
                             study,
                             joints,
-                            units,
+                            kinds,
                         },
                     )?);
                 }
@@ -84,7 +84,7 @@ pub(super) const SIMULATED: &str = "simulated-lock";
 pub(super) const CONVERGENCE: &str = "ever-shorter-brakes";
 
 /// The lock at the middle one of the failure times, and the limit of ever shorter brakes.
-fn draw_truth(truths: &[Truth], units: &[&'static str]) -> anyhow::Result<Vec<Drawing>> {
+fn draw_truth(truths: &[Truth], kinds: &[JointKind]) -> anyhow::Result<Vec<Drawing>> {
     let Some(truth) = truths.get(truths.len() / 2) else {
         return Ok(Vec::new());
     };
@@ -92,7 +92,7 @@ fn draw_truth(truths: &[Truth], units: &[&'static str]) -> anyhow::Result<Vec<Dr
     let lock = SimulatedTorques {
         truth,
         joints: &joints,
-        units,
+        kinds,
     };
     Ok(vec![
         both(SIMULATED.to_owned(), &lock)?,
@@ -125,11 +125,4 @@ pub(super) fn frontier_name(experiment: &Experiment) -> String {
 
 fn both(name: String, figure: &impl Figure) -> anyhow::Result<Drawing> {
     Ok((name, figures::svg(figure)?, figures::png(figure)?))
-}
-
-fn unit(kind: JointKind) -> &'static str {
-    match kind {
-        JointKind::Revolute => "N\u{b7}m",
-        JointKind::Prismatic => "N",
-    }
 }

@@ -42,6 +42,11 @@ pub(super) fn write(
                 beside(reference)
             )?;
             writeln!(out, "{}", impacts(scenario, study, reference))?;
+            for (method, title) in METHODS {
+                if let Err(error) = &study.case(method).search {
+                    writeln!(out, " {title}: {error}")?;
+                }
+            }
         }
         let exponent = exponent(&studies);
         writeln!(out, "\ncoefficients k_d of Eq. 16, in 1e{exponent}")?;
@@ -186,7 +191,14 @@ fn coefficients(experiment: &Experiment, studies: &[&Study], exponent: i32) -> S
             .into_iter()
             .chain(titles),
     );
-    let cell = |value: f64| format!("{:.2}", value / 10_f64.powi(exponent));
+    let cell = |value: f64| {
+        let text = format!("{:.2}", value / 10_f64.powi(exponent));
+        if text == "-0.00" {
+            "0.00".to_owned()
+        } else {
+            text
+        }
+    };
     for study in studies {
         let time = format!("{} s", study.failure_time);
         for (method, title) in [

@@ -31,6 +31,14 @@ fn times(studies: &[&Study]) -> String {
     times.join(", ")
 }
 
+/// Whether no healthy joint has an impact, but rounding.
+fn is_without_impact(studies: &[&Study]) -> bool {
+    let mut before = studies
+        .iter()
+        .map(|study| study.case(Method::PerJoint).healthy_impact().0);
+    before.all(|before| before < 1e-9)
+}
+
 /// The joints of which a sentence about every joint speaks.
 fn notable(case: &Case) -> impl Iterator<Item = usize> + '_ {
     let largest = case.impact_before.iter().copied().fold(0.0, f64::max);
@@ -45,6 +53,12 @@ pub(super) fn suppression_against_force(
     experiment: &Experiment,
     studies: &[&Study],
 ) -> fmt::Result {
+    if is_without_impact(studies) {
+        return writeln!(
+            page,
+            "**The lock changes no healthy joint's torque:** there is nothing to suppress.\n"
+        );
+    }
     let least = |study: &Study| {
         let case = study.case(Method::PerJoint);
         let percent = case.suppression_percent();
@@ -87,14 +101,17 @@ pub(super) fn suppression_against_force(
         "{} For locks at {} s, in this order:\n\n\
          - Eq. 16 takes at least {} % off the impact of every joint that has one to speak of, and bends the tool force \
          by {} N at the lock, and by up to {} N elsewhere in the motion: its coefficients are made for one pose and act in all.\n\
-         - Eq. 20 keeps the tool force (to within {:.0e} N over the whole motion) and leaves {} of {} N·m over the healthy joints.\n\
+         - Eq. 20 keeps the tool force (to within {} N over the whole motion) and leaves {} of {} N·m over the healthy joints.\n\
          - No compensation that keeps the force before and after the lock can leave less than {} N·m (the law `optimal`).\n{}",
         headline,
         times(studies),
         least.join(", "),
         of(Method::PerJoint, error),
         of(Method::PerJoint, worst),
-        kept.fold(0.0, f64::max),
+        match kept.fold(0.0, f64::max) {
+            0.0 => "0".to_owned(),
+            rounding => format!("{rounding:.0e}"),
+        },
         of(Method::Projected, after),
         of(Method::Projected, before),
         of(Method::Optimal, after),
@@ -118,7 +135,7 @@ pub(super) fn price_of_suppression(page: &mut String, studies: &[&Study]) -> fmt
             ))
         })
         .collect();
-    if ends.is_empty() {
+    if ends.is_empty() || is_without_impact(studies) {
         return Ok(());
     }
     writeln!(
