@@ -6,6 +6,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use ulna::compensation::FreeTorque;
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::proof::states;
 use ulna::{Arm, Compensation, Controller, JointState, LockedJoints, Projector};
@@ -26,6 +27,10 @@ fn cycle(criterion: &mut Criterion) {
     let wrench = Vector6::new(20.0, 20.0, 20.0, 0.0, 0.0, 0.0);
     let locked = LockedJoints::new(&[1]).unwrap_or(LockedJoints::NONE);
     let coefficients = SVector::repeat(1e7);
+    let free = FreeTorque {
+        torque: SVector::repeat(5.0),
+        wrench,
+    };
 
     let mut group = criterion.benchmark_group("ssrms/cycle");
     let mut time = |name: &str, work: &dyn Fn(&JointState<7>)| {
@@ -47,6 +52,13 @@ fn cycle(criterion: &mut Criterion) {
     for (name, compensation) in [
         ("per_joint", Compensation::PerJoint(coefficients)),
         ("projected", Compensation::Projected(coefficients)),
+        (
+            "optimal",
+            Compensation::Optimal {
+                before: free,
+                after: free,
+            },
+        ),
     ] {
         let controller = Controller::new(&Ssrms, compensation);
         time(name, &|state| {

@@ -73,7 +73,7 @@ impl<const N: usize> TaskPose<N> {
         self.task
     }
 
-    /// P x for the moving joints, times the factor of the rule near singular poses.
+    /// P x for the moving joints, times the factor of the rule near singular poses; exactly 0 where the moving joints have no null space.
     #[inline]
     pub fn project(&self, x: &SVector<f64, N>) -> SVector<f64, N> {
         if self.null_space.rank() + self.locked.len() >= N {

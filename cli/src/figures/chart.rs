@@ -89,15 +89,24 @@ where
     Y: AsRangedCoord<Value = f64>,
     Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
 {
+    let (left, label, right) = (6, 66, 18);
     let mut chart = ChartBuilder::on(area)
-        .margin_top(pen.px(6))
+        .margin_top(pen.px(28))
         .margin_bottom(pen.px(4))
-        .margin_left(pen.px(6))
-        .margin_right(pen.px(18))
-        .caption(axes.title, pen.title())
+        .margin_left(pen.px(left))
+        .margin_right(pen.px(right))
         .x_label_area_size(pen.px(38))
-        .y_label_area_size(pen.px(66))
+        .y_label_area_size(pen.px(label))
         .build_cartesian_2d(x, y)?;
+    // The library's own caption keeps a distance of whole pixels, whatever the scale.
+    let width = area.dim_in_pixel().0;
+    let centre = (width + pen.px(left + label) - pen.px(right)) / 2;
+    let title = anchored(&pen.title(), HPos::Center, VPos::Bottom);
+    area.draw(&Text::new(
+        axes.title,
+        (centre.cast_signed(), pen.at(22)),
+        title,
+    ))?;
     chart
         .configure_mesh()
         .bold_line_style(GREY.mix(0.25).stroke_width(pen.px(1)))

@@ -154,11 +154,11 @@ fn colour_bar<DB: DrawingBackend>(
     let at = |exponent: f64| {
         bottom - (f64::from(bottom - top) * (exponent - least) / (most - least)) as i32
     };
-    for y in top..bottom {
+    for y in (top..bottom).step_by(pen.px(1) as usize) {
         let share = f64::from(bottom - y) / f64::from(bottom - top);
         let colour = ViridisRGB.get_color(share);
         area.draw(&Rectangle::new(
-            [(left, y), (right, y + 1)],
+            [(left, y), (right, y + pen.at(1))],
             colour.filled(),
         ))?;
     }

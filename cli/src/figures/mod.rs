@@ -41,11 +41,19 @@ pub(crate) trait Figure {
 /// A figure as SVG.
 pub(crate) fn svg(figure: &impl Figure) -> anyhow::Result<String> {
     load_fonts();
+    // The backend's coordinates are whole numbers: whole pixels would make steps of curves.
+    let pen = Pen { scale: 16 };
+    let (width, height) = figure.size();
+    let (fine_width, fine_height) = (width * pen.scale, height * pen.scale);
     let mut text = String::new();
-    let area = SVGBackend::with_string(&mut text, figure.size()).into_drawing_area();
-    draw(figure, &area, Pen { scale: 1 })?;
+    let area = SVGBackend::with_string(&mut text, (fine_width, fine_height)).into_drawing_area();
+    draw(figure, &area, pen)?;
     drop(area);
-    Ok(text)
+    let fine = format!("width=\"{fine_width}\" height=\"{fine_height}\"");
+    let size = format!("width=\"{width}\" height=\"{height}\"");
+    let text = text.replacen(&fine, &size, 1);
+    // Else the background would shine through where two fields meet.
+    Ok(text.replace("<rect ", "<rect shape-rendering=\"crispEdges\" "))
 }
 
 /// A figure as PNG, at twice the resolution.
