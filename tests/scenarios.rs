@@ -91,6 +91,19 @@ impl WithoutMoment for ToolForce {
 }
 
 #[test]
+fn every_shipped_scenario_is_sound() {
+    let mut count = 0;
+    for entry in std::fs::read_dir("scenarios").unwrap() {
+        let path = entry.unwrap().path();
+        if let Err(errors) = Scenario::load(&path, &known()) {
+            panic!("{errors}");
+        }
+        count += 1;
+    }
+    assert!(count >= 2);
+}
+
+#[test]
 fn positions_are_read_in_either_unit_from_either_zero() {
     let plan = |edits: &[(&str, &str)]| parse(&edited(edits)).unwrap().motion;
     let radians = plan(&[]);
@@ -157,6 +170,7 @@ fn keys_and_types() {
         ("[[experiment.reference]]", "[experiment.reference]"),
         ("times = [3.0, 10.0, 18.0]", "times = 3.0"),
         ("section = \"5.2\"", "section = 5.2"),
+        ("title = \"constant force\"", "title = \"\\u001b[31mred\""),
     ]);
     insta::assert_snapshot!(messages);
 }

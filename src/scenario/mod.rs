@@ -1,7 +1,7 @@
 //! [`Scenario`]: one motion of one arm, the joints that lock, and the experiments made with it.
 //!
 //! Read from TOML with the care that arm tables get: every error at once, each with its line and what to write instead.
-//! `scenarios/paper_like.toml` shows all keys.
+//! The files in `scenarios/` show all keys.
 
 mod arm;
 mod force;

@@ -102,9 +102,13 @@ impl<'t> Value<'t> {
         }
     }
 
-    /// A string.
+    /// A string on one line, without characters that a terminal would obey.
     pub(crate) fn string(self) -> Option<Located<&'t str>> {
         match self.value {
+            DeValue::String(string) if string.chars().any(char::is_control) => {
+                let message = format!("{} has a control character in it", self.name);
+                self.error(message, "not plain text", "write plain text on one line")
+            }
             DeValue::String(string) => Some(self.located(string.as_ref())),
             _ => self.expected("a string"),
         }

@@ -105,7 +105,8 @@ fn files(page: &mut String) -> fmt::Result {
     writeln!(
         page,
         "## Files\n\n\
-         - `results.json`: every case with its exact search. Torques in N·m, forces in N, times in s. \
+         Torques are in N·m (N at sliding joints), forces in N, times in s.\n\n\
+         - `results.json`: every case with its exact search. \
          `coefficients` are k_d; the law `optimal` has none, and in their place are those of Eq. 16 that would change each joint's step at the lock alike. \
          `failed_joint` counts from 1, and is a list where several lock together. `rated_torque` is `null` where there is none. \
          `max_force_error` and `max_torque` are over all control cycles.\n\
