@@ -33,19 +33,29 @@ def main():
     parser.add_argument("--output", type=Path, default=HERE, help="the folder to write into")
     options = parser.parse_args()
 
-    from growth import crate, measure, plot, report
+    from growth import crate, measure, plot, report, rows
 
     options.output.mkdir(parents=True, exist_ok=True)
+    table = options.output / "growth.csv"
+    known = rows.read(table)
     cli = measure.build_cli()
     crate.prepare()
-    rows = []
     for joints in options.joints:
-        rows += measure.arm(cli, joints, options)
-        # After every size, so that a run that is cut short leaves what it has.
-        report.write(rows, options)
-        plot.draw(rows, options.output)
-    print((options.output / "results.md").read_text())
-    faults = [f"{row.quantity}, {row.joints} joints: {fault}" for row in rows for fault in row.faults()]
+        new = measure.arm(cli, joints, options)
+        known = sorted([row for row in known if row["joints"] != joints] + new, key=lambda row: row["joints"])
+        # After every size: a run that is cut short can be carried on.
+        rows.write(known, table)
+    known = rows.read(table)
+    text = report.page(known, options)
+    (options.output / "results.md").write_text(text)
+    plot.draw(known, options.output)
+    print(text)
+    faults = [
+        f"{row['quantity']}, {row['joints']:.0f} joints, {profile}: {row[f'{profile}_fault']}"
+        for row in known
+        for profile in rows.PROFILES
+        if f"{profile}_fault" in row
+    ]
     sys.exit("\n".join(faults) or 0)
 
 

@@ -6,9 +6,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
-
-from .measure import Row
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 
 # Colours that stay apart for the colour-blind (Okabe and Ito), and a mark each for print without colours.
 QUANTITIES = {
@@ -22,26 +20,21 @@ QUANTITIES = {
 }
 
 
-def draw(rows: list[Row], folder: Path):
-    def of_build(profile, value):
-        def get(row):
-            build = row.builds.get(profile)
-            return value(build) if build and not build.cost.fault else None
+PANELS = {
+    "operations": "operations",
+    "call_ns": "a call, release: ns",
+    "dev_stack_kB": "a call, dev: kB of stack",
+    "release_s": "to compile, release: s",
+    "dev_s": "to compile, dev: s",
+    "release_MB": "to compile, release: MB",
+}
 
-        return get
 
-    panels = [
-        ("operations", lambda row: row.operations),
-        ("a call, release: ns", lambda row: row.nanoseconds),
-        ("a call, dev: kB of stack", of_build("dev", lambda build: build.stack)),
-        ("to compile, release: s", of_build("release", lambda build: build.cost.seconds)),
-        ("to compile, dev: s", of_build("dev", lambda build: build.cost.seconds)),
-        ("to compile, release: MB", of_build("release", lambda build: build.cost.megabytes)),
-    ]
+def draw(rows: list[dict], folder: Path):
     plt.rcParams.update({"svg.hashsalt": "growth", "svg.fonttype": "path", "font.size": 10})
     figure, axes = plt.subplots(2, 3, figsize=(12, 8), sharex=True, layout="constrained")
-    for axis, (title, value) in zip(axes.flat, panels):
-        panel(axis, title, rows, value)
+    for axis, (column, title) in zip(axes.flat, PANELS.items()):
+        panel(axis, title, rows, column)
     for axis in axes[-1]:
         axis.set_xlabel("joints")
     figure.suptitle("Generated code of arms with oblique axes and full inertias")
@@ -51,17 +44,18 @@ def draw(rows: list[Row], folder: Path):
     plt.close(figure)
 
 
-def panel(axis, title: str, rows: list[Row], value):
+def panel(axis, title: str, rows: list[dict], column: str):
     """Both axes logarithmic: a power law is a straight line, its slope the power."""
     for quantity, (label, colour, mark) in QUANTITIES.items():
-        points = [(row.joints, value(row)) for row in rows if row.quantity == quantity]
-        points = [point for point in points if point[1]]
+        points = [(row["joints"], row[column]) for row in rows if row["quantity"] == quantity and row.get(column)]
         axis.loglog(*zip(*points) if points else ([], []), label=label, color=colour, marker=mark, markersize=6, linewidth=1.4)
     axis.set_title(title, loc="left")
-    sizes = sorted({row.joints for row in rows})
+    sizes = sorted({row["joints"] for row in rows})
     axis.xaxis.set_major_locator(FixedLocator(sizes))
     axis.xaxis.set_minor_locator(NullLocator())
     axis.xaxis.set_major_formatter("{x:.0f}")
+    axis.yaxis.set_major_locator(LogLocator(subs=[1, 3]))
+    axis.yaxis.set_minor_locator(NullLocator())
     axis.yaxis.set_major_formatter(FuncFormatter(lambda number, _: f"{number:,g}"))
     axis.grid(color="0.88", linewidth=0.8)
     axis.spines[["top", "right"]].set_visible(False)

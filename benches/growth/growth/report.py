@@ -1,76 +1,49 @@
 """The rows as results.md and growth.csv."""
 
-import csv
 import datetime
 import os
 import platform
 from math import log
 
-from .measure import NONE, WHOLE, Row
+from .measure import NONE, WHOLE
 from .process import output
+from .rows import PROFILES
 
 
-def write(rows: list[Row], options):
-    (options.output / "results.md").write_text(page(rows, options))
-    with (options.output / "growth.csv").open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        head = [f"{profile}_{what}" for profile in options.profiles for what in ("s", "elapsed_s", "MB", "stack_kB", "fault")]
-        writer.writerow(["joints", "quantity", "operations", "lines", "generate_s", "generate_MB", "call_ns", *head])
-        writer.writerows(record(row, options.profiles) for row in rows)
-
-
-def record(row: Row, profiles: list[str]) -> list:
-    generate = [round(row.generate.seconds, 2), round(row.generate.megabytes)] if row.generate else [None, None]
-    time = row.nanoseconds and round(row.nanoseconds, 1)
-    cells = [row.joints, row.quantity, row.operations, row.lines, *generate, time]
-    for profile in profiles:
-        build = row.builds[profile]
-        cost = build.cost
-        cells += [round(cost.seconds, 2), round(cost.elapsed, 2), round(cost.megabytes), build.stack, cost.fault.split("\n")[0]]
-    return cells
-
-
-def page(rows: list[Row], options) -> str:
+def page(rows: list[dict], options) -> str:
     load = " ".join(f"{average:.1f}" for average in os.getloadavg())
+    sizes = ", ".join(str(size) for size in options.joints)
     parts = [
         "# How generated code grows with the number of joints\n",
         f"Written by `python3 benches/growth/run.py` on {datetime.date.today()} (seed {options.seed}); "
         "`README.md` says what is measured and how.\n",
-        f"- {processor()}, {os.cpu_count()} cores, {platform.system()} {platform.release()}; load average at the end: {load}\n"
+        f"- {processor()}, {os.cpu_count()} cores, {platform.system()} {platform.release()}; "
+        f"load average after the last sizes ({sizes} joints): {load}\n"
         f"- {output(['rustc', '--version']).strip()}, cargo's profiles as they are, no flags\n",
         "![Growth](growth.svg)\n",
-        section("Operations", rows, lambda row: row.operations, "{:,.0f}"),
-        section("Emitted lines", rows, lambda row: row.lines or None, "{:,.0f}"),
-        section("A call in the release profile, ns", rows, lambda row: row.nanoseconds, "{:,.0f}"),
-        section("To generate the file: seconds", rows, lambda row: row.generate and row.generate.seconds, "{:.2f}"),
-        section("To generate the file: MB", rows, lambda row: row.generate and row.generate.megabytes, "{:,.0f}"),
+        section("Operations", rows, "operations", "{:,.0f}"),
+        section("Emitted lines", rows, "lines", "{:,.0f}"),
+        section("A call in the release profile, ns", rows, "call_ns", "{:,.0f}"),
+        section("To generate the file: seconds", rows, "generate_s", "{:.2f}"),
+        section("To generate the file: MB", rows, "generate_MB", "{:,.0f}"),
     ]
-    for profile in options.profiles:
+    for profile in PROFILES:
         at = f"in the {profile} profile"
         parts += [
-            section(f"To compile {at}: seconds of processors", rows, lambda row: seconds(row, profile), "{:,.1f}"),
-            section(f"To compile {at}: MB", rows, lambda row: megabytes(row, profile), "{:,.0f}"),
-            section(f"A call {at}: kB of stack", rows, lambda row: row.builds[profile].stack, "{:,.0f}"),
+            section(f"To compile {at}: seconds of processors", rows, f"{profile}_s", "{:,.1f}"),
+            section(f"To compile {at}: MB", rows, f"{profile}_MB", "{:,.0f}"),
+            section(f"A call {at}: kB of stack", rows, f"{profile}_stack_kB", "{:,.0f}"),
         ]
     return "\n".join(parts)
 
 
-def seconds(row: Row, profile: str) -> float | str:
-    cost = row.builds[profile].cost
-    return cost.fault.split("\n")[0] or cost.seconds
-
-
-def megabytes(row: Row, profile: str) -> float | None:
-    cost = row.builds[profile].cost
-    return None if cost.fault else cost.megabytes
-
-
-def section(title: str, rows: list[Row], value, form: str) -> str:
+def section(title: str, rows: list[dict], column: str, form: str) -> str:
     """A line for each quantity, a column for each size, and the exponent of growth between the last two."""
-    sizes = sorted({row.joints for row in rows})
-    quantities = list(dict.fromkeys(row.quantity for row in rows))
-    values = {(row.quantity, row.joints): value(row) for row in rows}
-    lines = [["", *(f"{size} joints" for size in sizes), "n^"]]
+    sizes = sorted({row["joints"] for row in rows})
+    quantities = list(dict.fromkeys(row["quantity"] for row in rows))
+    fault = f"{column.split('_')[0]}_fault"
+    values = {(row["quantity"], row["joints"]): row.get(fault) or row.get(column) for row in rows}
+    lines = [["", *(f"{size:.0f} joints" for size in sizes), "n^"]]
     for quantity in sorted(quantities, key=lambda quantity: (quantity == WHOLE, quantity != NONE)):
         cells = [values.get((quantity, size)) for size in sizes]
         if any(cell is not None for cell in cells):
