@@ -77,8 +77,8 @@ pub(crate) struct InertiaTable {
 }
 
 impl ArmTable {
-    /// More joints than any arm has; what is larger is not meant to be unrolled.
-    pub(crate) const MAX_JOINTS: usize = 64;
+    /// As far as generated code is measured (`benches/growth`): its size grows with the third power.
+    pub(crate) const MAX_JOINTS: usize = 32;
 
     /// Reads a table. `None` if `text` is no TOML; everything that is wrong goes to `sink`.
     pub(crate) fn read(text: &str, sink: &Sink) -> Option<Self> {
