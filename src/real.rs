@@ -2,6 +2,13 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+/// A part of a long kernel: see [`Real::apart`].
+pub trait Part<S> {
+    /// Carries on from where the parts before have brought `state`. To be inlined always: it is compiled for the instructions
+    /// of its caller.
+    fn run(state: &mut S);
+}
+
 /// A real scalar, or several in lanes.
 ///
 /// Generated kernels are straight-line functions over this trait; they need nothing else of a number.
@@ -37,6 +44,14 @@ pub trait Real:
 
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
+
+    /// Runs a part of a kernel as a function of its own, compiled for the instructions of these scalars.
+    ///
+    /// Compilers take more than linear time on long functions, and debug builds give each operation its own place on the stack.
+    #[inline(never)]
+    fn apart<P: Part<S>, S>(state: &mut S) {
+        P::run(state);
+    }
 
     /// Sines and cosines of several angles at once, each within ±2²⁶ rad.
     #[inline(always)]

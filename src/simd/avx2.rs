@@ -3,7 +3,7 @@
 use core::arch::x86_64::*;
 use core::ops::Neg;
 
-use super::{BLOCK, Lanes, MAX_WIDTH, operators};
+use super::{BLOCK, Lanes, MAX_WIDTH, apart, operators};
 use crate::Real;
 use crate::trigonometry::{Quarters, sin_cos};
 
@@ -31,6 +31,8 @@ impl Neg for Avx2 {
 }
 
 impl Real for Avx2 {
+    apart!("avx2,fma");
+
     #[inline(always)]
     fn of(value: f64) -> Self {
         unsafe { Self(_mm256_set1_pd(value)) }

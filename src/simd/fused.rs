@@ -5,7 +5,7 @@ use core::ops::Neg;
 use bytemuck::{Pod, Zeroable, cast};
 
 use super::avx2::Avx2;
-use super::{Double, operators};
+use super::{Double, apart, operators};
 use crate::Real;
 use crate::trigonometry::{Quarters, sin_cos};
 
@@ -37,6 +37,8 @@ impl Neg for Fused {
 }
 
 impl Real for Fused {
+    apart!("avx2,fma");
+
     #[inline(always)]
     fn of(value: f64) -> Self {
         Self(value)

@@ -166,3 +166,22 @@ macro_rules! operators {
 }
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 use operators;
+
+/// [`Real::apart`] for scalars that are made only where the processor has the features.
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+macro_rules! apart {
+    ($features:literal) => {
+        #[inline(always)]
+        fn apart<P: crate::real::Part<S>, S>(state: &mut S) {
+            #[target_feature(enable = $features)]
+            #[inline(never)]
+            fn run<P: crate::real::Part<S>, S>(state: &mut S) {
+                P::run(state);
+            }
+            // SAFETY: whoever calls this is compiled for the features, and was called after the processor had been asked.
+            unsafe { run::<P, S>(state) }
+        }
+    };
+}
+#[cfg(all(feature = "std", target_arch = "x86_64"))]
+use apart;

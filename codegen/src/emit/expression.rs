@@ -81,6 +81,43 @@ impl<'p> Writer<'p> {
             .collect()
     }
 
+    /// The step behind every named value, in order.
+    pub(super) fn named_steps(&self) -> Vec<Step> {
+        let steps = self.names.iter().zip(&self.program.steps);
+        let steps = steps.filter_map(|(name, step)| name.is_some().then_some(*step));
+        steps.collect()
+    }
+
+    /// A value as an expression.
+    pub(super) fn value(&self, operand: Operand) -> TokenStream {
+        self.operand(operand).tokens
+    }
+
+    /// Appends the names in the expression of a value: of other values, sines and cosines, arguments.
+    pub(super) fn names_in(&self, operand: Operand, names: &mut Vec<Ident>) {
+        match operand {
+            Operand::Step(index) => match &self.names[index] {
+                Some(name) => names.push(name.clone()),
+                None => self.names_in_step(&self.program.steps[index], names),
+            },
+            Operand::Input(Input::Sin(angle)) => names.push(self.angle_name("s", angle)),
+            Operand::Input(Input::Cos(angle)) => names.push(self.angle_name("c", angle)),
+            Operand::Input(Input::Q(_)) => names.push(format_ident!("q")),
+            Operand::Input(Input::Qd(_)) => names.push(format_ident!("qd")),
+            Operand::Input(Input::Qdd(_)) => names.push(format_ident!("qdd")),
+            Operand::Input(Input::Tau(_)) => names.push(format_ident!("tau")),
+            Operand::Constant(_) => {}
+        }
+    }
+
+    /// Appends the names in the expression of a step.
+    pub(super) fn names_in_step(&self, step: &Step, names: &mut Vec<Ident>) {
+        self.names_in(step.a, names);
+        if step.op.row().arity == 2 {
+            self.names_in(step.b, names);
+        }
+    }
+
     /// An output as nested arrays.
     pub(super) fn output(&self, output: &Output<Operand>) -> TokenStream {
         let mut rows: Vec<TokenStream> = output
@@ -101,9 +138,13 @@ impl<'p> Writer<'p> {
     pub(super) fn angle(&self, index: usize) -> (Option<Ident>, Option<Ident>) {
         let name = |prefix, input| {
             self.uses_input(input)
-                .then(|| format_ident!("{prefix}{}", self.angle_names[index]))
+                .then(|| self.angle_name(prefix, index))
         };
         (name("s", Input::Sin(index)), name("c", Input::Cos(index)))
+    }
+
+    fn angle_name(&self, prefix: &str, angle: usize) -> Ident {
+        format_ident!("{prefix}{}", self.angle_names[angle])
     }
 
     /// Whether the program reads the argument of that name.
@@ -151,7 +192,7 @@ impl<'p> Writer<'p> {
             quote!(#name[#index])
         };
         let named = |prefix: &str, angle: usize| {
-            let name = format_ident!("{prefix}{}", self.angle_names[angle]);
+            let name = self.angle_name(prefix, angle);
             quote!(#name)
         };
         match input {

@@ -5,13 +5,14 @@ use quote::{format_ident, quote};
 
 use super::expression::Writer;
 use super::literal::literal;
+use super::parts;
 use crate::Method;
 use crate::cost::Counts;
 use crate::graph::AngleSum;
 
 /// Names that are declared together. Each `let` opens a scope within which all that follows is nested, and the
 /// compiler recurses over scopes; one declaration for many names keeps the nesting shallow however long the program.
-const NAMES_PER_SCOPE: usize = 128;
+pub(super) const NAMES_PER_SCOPE: usize = 128;
 
 /// The name of a method's kernel.
 pub(super) fn kernel_name(method: &str) -> Ident {
@@ -35,7 +36,7 @@ pub(super) fn kernel(method: &Method, joints: usize) -> TokenStream {
     let types: Vec<TokenStream> = program
         .outputs
         .iter()
-        .map(|o| array_type(&o.shape))
+        .map(|o| array_of(&quote!(R), &o.shape))
         .collect();
     let outputs: Vec<TokenStream> = program.outputs.iter().map(|o| writer.output(o)).collect();
     let (result, value) = match (types.as_slice(), outputs.as_slice()) {
@@ -44,7 +45,12 @@ pub(super) fn kernel(method: &Method, joints: usize) -> TokenStream {
     };
     let doc = documentation(method).map(|line| quote!(#[doc = #line]));
     let angles = angles(&writer, &program.angles);
-    let body = statements(&writer.named());
+    let named = writer.named();
+    let (body, value) = if parts::is_long(named.len()) {
+        (parts::parts(&writer, method, &named, joints), quote!())
+    } else {
+        (statements(&named), value)
+    };
     quote! {
         #(#doc)*
         #[inline(always)]
@@ -66,8 +72,9 @@ fn documentation(method: &Method) -> [String; 3] {
     ]
 }
 
-fn array_type(shape: &[usize]) -> TokenStream {
-    shape.iter().rev().fold(quote!(R), |inner, length| {
+/// The type, or the value, of nested arrays of one element.
+pub(super) fn array_of(element: &TokenStream, shape: &[usize]) -> TokenStream {
+    shape.iter().rev().fold(element.clone(), |inner, length| {
         let length = Literal::usize_unsuffixed(*length);
         quote!([#inner; #length])
     })

@@ -4,6 +4,7 @@ mod chain;
 mod expression;
 mod kernel;
 mod literal;
+mod parts;
 
 use std::fmt::Write as _;
 
