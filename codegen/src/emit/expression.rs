@@ -100,12 +100,7 @@ impl<'p> Writer<'p> {
                 Some(name) => names.push(name.clone()),
                 None => self.names_in_step(&self.program.steps[index], names),
             },
-            Operand::Input(Input::Sin(angle)) => names.push(self.angle_name("s", angle)),
-            Operand::Input(Input::Cos(angle)) => names.push(self.angle_name("c", angle)),
-            Operand::Input(Input::Q(_)) => names.push(format_ident!("q")),
-            Operand::Input(Input::Qd(_)) => names.push(format_ident!("qd")),
-            Operand::Input(Input::Qdd(_)) => names.push(format_ident!("qdd")),
-            Operand::Input(Input::Tau(_)) => names.push(format_ident!("tau")),
+            Operand::Input(input) => names.push(self.input_name(input)),
             Operand::Constant(_) => {}
         }
     }
@@ -136,24 +131,14 @@ impl<'p> Writer<'p> {
 
     /// Names of an angle's sine and cosine; none for one that is not used.
     pub(super) fn angle(&self, index: usize) -> (Option<Ident>, Option<Ident>) {
-        let name = |prefix, input| {
-            self.uses_input(input)
-                .then(|| self.angle_name(prefix, index))
-        };
-        (name("s", Input::Sin(index)), name("c", Input::Cos(index)))
-    }
-
-    fn angle_name(&self, prefix: &str, angle: usize) -> Ident {
-        format_ident!("{prefix}{}", self.angle_names[angle])
+        let name = |input| self.uses_input(input).then(|| self.input_name(input));
+        (name(Input::Sin(index)), name(Input::Cos(index)))
     }
 
     /// Whether the program reads the argument of that name.
     pub(super) fn uses_argument(&self, name: &str) -> bool {
         let reads = |operand: Operand| match operand {
-            Operand::Input(Input::Q(_)) => name == "q",
-            Operand::Input(Input::Qd(_)) => name == "qd",
-            Operand::Input(Input::Qdd(_)) => name == "qdd",
-            Operand::Input(Input::Tau(_)) => name == "tau",
+            Operand::Input(input) => self.input_name(input) == name,
             _ => false,
         };
         self.any_operand(reads) || (name == "q" && !self.program.angles.is_empty())
@@ -187,21 +172,25 @@ impl<'p> Writer<'p> {
     }
 
     fn input(&self, input: Input) -> TokenStream {
-        let indexed = |name: &str, index: usize| {
-            let (name, index) = (format_ident!("{name}"), Literal::usize_unsuffixed(index));
-            quote!(#name[#index])
-        };
-        let named = |prefix: &str, angle: usize| {
-            let name = self.angle_name(prefix, angle);
-            quote!(#name)
-        };
+        let name = self.input_name(input);
         match input {
-            Input::Q(i) => indexed("q", i),
-            Input::Qd(i) => indexed("qd", i),
-            Input::Qdd(i) => indexed("qdd", i),
-            Input::Tau(i) => indexed("tau", i),
-            Input::Sin(angle) => named("s", angle),
-            Input::Cos(angle) => named("c", angle),
+            Input::Q(i) | Input::Qd(i) | Input::Qdd(i) | Input::Tau(i) => {
+                let i = Literal::usize_unsuffixed(i);
+                quote!(#name[#i])
+            }
+            Input::Sin(_) | Input::Cos(_) => quote!(#name),
+        }
+    }
+
+    /// The name of an argument, or of a sine or cosine.
+    fn input_name(&self, input: Input) -> Ident {
+        match input {
+            Input::Q(_) => format_ident!("q"),
+            Input::Qd(_) => format_ident!("qd"),
+            Input::Qdd(_) => format_ident!("qdd"),
+            Input::Tau(_) => format_ident!("tau"),
+            Input::Sin(angle) => format_ident!("s{}", self.angle_names[angle]),
+            Input::Cos(angle) => format_ident!("c{}", self.angle_names[angle]),
         }
     }
 

@@ -57,7 +57,7 @@ pub(super) fn parts(
         .iter()
         .map(|name| format_ident!("{name}"))
         .collect();
-    let (parts, slots) = divide(writer, &arguments, named, &elements);
+    let (parts, slots) = divide(writer, &arguments, named, &elements, LENGTH);
     arguments.retain(|argument| parts.iter().any(|part| part.arguments.contains(argument)));
 
     let length = Literal::usize_unsuffixed(joints);
@@ -151,14 +151,15 @@ fn indices(mut index: usize, shape: &[usize]) -> Vec<Literal> {
     indices
 }
 
-/// Parts of equal length, and the places of the values that they share.
+/// Parts of equal length, at most `longest`, and the places of the values that they share.
 fn divide(
     writer: &Writer<'_>,
     arguments: &[Ident],
     named: &[(Ident, TokenStream)],
     elements: &HashMap<usize, Vec<Element>>,
+    longest: usize,
 ) -> (Vec<Part>, HashMap<Ident, usize>) {
-    let length = named.len().div_ceil(named.len().div_ceil(LENGTH));
+    let length = named.len().div_ceil(named.len().div_ceil(longest));
     let mut parts: Vec<Part> = named
         .chunks(length)
         .map(|own| Part {
@@ -216,4 +217,75 @@ fn body(part: &Part, slots: &HashMap<Ident, usize>) -> TokenStream {
     let own = own.map(|names| quote!(let (#(#names,)*);));
     let (arguments, assignments) = (&part.arguments, &part.assignments);
     quote!(#(let #arguments = &state.#arguments;)* #(#shared)* #(#own)* #(#assignments)*)
+}
+
+#[cfg(test)]
+mod tests {
+    use ulna::Model;
+
+    use super::*;
+
+    /// Every part reads what it gave a value to before, or what an earlier part has shared; the outputs are complete.
+    #[test]
+    fn what_a_part_reads_is_there() {
+        let model = Model::load("../arms/oblique_6.toml").unwrap();
+        for method in crate::compile(&model) {
+            let writer = Writer::new(&method.program);
+            let (named, steps) = (writer.named(), writer.named_steps());
+            let elements = elements_by_last_name(&writer, &method.program.outputs, &named);
+            let arguments = ["q", "qd", "qdd", "tau"].map(|name| format_ident!("{name}"));
+            let (parts, slots) = divide(&writer, &arguments, &named, &elements, 20);
+            assert!(parts.len() >= named.len() / 20);
+
+            let mut shared: HashSet<Ident> = slots.keys().cloned().collect();
+            shared.retain(|name| !named.iter().any(|(own, _)| own == name));
+            let (mut position, mut written) = (0, 0);
+            for part in &parts {
+                assert!(
+                    part.shared.iter().all(|name| shared.contains(name)),
+                    "{}",
+                    method.name
+                );
+                let mut known: HashSet<&Ident> =
+                    part.shared.iter().chain(&part.arguments).collect();
+                for name in &part.own {
+                    let mut names = Vec::new();
+                    writer.names_in_step(&steps[position], &mut names);
+                    assert!(
+                        names.iter().all(|name| known.contains(name)),
+                        "{}: {name}",
+                        method.name
+                    );
+                    known.insert(name);
+                    let mut names = Vec::new();
+                    for element in elements.get(&position).into_iter().flatten() {
+                        writer.names_in(element.operand, &mut names);
+                        written += 1;
+                    }
+                    assert!(
+                        names.iter().all(|name| known.contains(name)),
+                        "{}: {name}",
+                        method.name
+                    );
+                    position += 1;
+                }
+                shared.extend(
+                    part.own
+                        .iter()
+                        .filter(|name| slots.contains_key(name))
+                        .cloned(),
+                );
+            }
+            let operands = method
+                .program
+                .outputs
+                .iter()
+                .flat_map(|output| &output.elements);
+            let zeros = operands
+                .clone()
+                .filter(|o| **o == Operand::Constant(0.0))
+                .count();
+            assert_eq!(written, operands.count() - zeros, "{}", method.name);
+        }
+    }
 }
