@@ -7,7 +7,7 @@
 //! - [`Stepwise`] searches as the paper does (Figure 2);
 //! - [`cancel_per_joint`] solves Eq. 16 in closed form, joint by joint;
 //! - [`least_impact`] solves Eq. 20 exactly (feature "optimal");
-//! - [`optimal()`] does without k_d and ∇w_D, and [`frontier()`] trades tool force for impact (feature "optimal").
+//! - [`optimal()`] does without k_d and ∇w_D, and `frontier` trades tool force for impact (feature "optimal").
 
 mod coefficients;
 #[cfg(feature = "optimal")]
