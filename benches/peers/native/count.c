@@ -8,7 +8,7 @@
 #define CALLS 16
 #define LARGEST 8192 /* numbers in a result or a state */
 
-typedef void kernel(const double *x, double *out);
+typedef void kernel(double *out, const double *x); /* as returning_kernel in timer.c */
 typedef kernel *find_kernel(const char *arm, const char *quantity);
 
 static double x[CALLS][LARGEST], out[LARGEST];
@@ -23,9 +23,9 @@ int main(int count, char **words) {
     for (int word = 2; word + 1 < count; word += 2) {
         kernel *run = find(words[word], words[word + 1]);
         if (!run) return fprintf(stderr, "count: no %s of %s\n", words[word + 1], words[word]), 1;
-        run(x[0], out); /* what happens once only is not counted */
+        run(out, x[0]); /* what happens once only is not counted */
         CALLGRIND_ZERO_STATS;
-        for (int call = 0; call < CALLS; ++call) run(x[call], out);
+        for (int call = 0; call < CALLS; ++call) run(out, x[call]);
         CALLGRIND_DUMP_STATS_AT(words[word + 1]);
     }
     return 0;

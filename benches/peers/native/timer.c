@@ -4,11 +4,13 @@
 
 /* One call of a peer: `count` states, laid out as q of all, qd of all, qdd of all; `single` wherever count is 1. */
 typedef void single_kernel(const double *x, double *out);
+typedef void returning_kernel(double *out, const double *x); /* of Rust: what it returns, it is told where to put */
 typedef void batch_kernel(const double *x, long count, double *out);
 
 struct peer {
     single_kernel *single;
-    batch_kernel *batch; /* used where `single` is null */
+    returning_kernel *returning; /* used where `single` is null */
+    batch_kernel *batch;         /* used where both are null */
 };
 
 static double now(void) {
@@ -21,6 +23,8 @@ static void pass(const struct peer *peer, const double *states, const double *bl
                  double *out) {
     if (peer->single)
         for (int i = 0; i < count; ++i) peer->single(states + i * width, out);
+    else if (peer->returning)
+        for (int i = 0; i < count; ++i) peer->returning(out, states + i * width);
     else
         for (int i = 0; i < count; i += block) peer->batch(blocks + i * width, block, out);
 }

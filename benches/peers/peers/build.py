@@ -29,6 +29,7 @@ class Library:
     flags: str
     path: Path
     symbol: str = "kernel"
+    kind: str = "single"  # how its functions are called: native/timer.c
     operations: dict = field(default_factory=dict)  # quantity -> {"total", "sin_cos"}
     seconds: float = 0.0  # of processor time to compile
 
@@ -159,7 +160,10 @@ def rust_libraries(table: Path):
         cargo = ["cargo", "build", "--release", "--package", "ulna-peers", "--target-dir", target]
         run(cargo, cwd=ROOT, env=os.environ | {"RUSTFLAGS": rustflags})
         path = target / "release/libulna_peers.so"
-        symbols = {"ulna": "kernel", "ulna, batch": "batch_kernel", "ulna, generic path": "generic_kernel"}
-        libraries += [Library(peer, flags, path, symbol) for peer, symbol in symbols.items()]
+        libraries += [
+            Library("ulna", flags, path, "kernel", "returning"),
+            Library("ulna, batch", flags, path, "batch_kernel", "batch"),
+            Library("ulna, generic path", flags, path, "generic_kernel", "returning"),
+        ]
     listing = json.loads(run([BUILD / "rust-default/release/listing", table]))
     return listing, libraries

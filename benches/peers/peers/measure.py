@@ -38,18 +38,19 @@ class Kernel:
         find = getattr(ctypes.CDLL(str(library.path)), library.symbol)
         find.argtypes, find.restype = [ctypes.c_char_p] * 2, ctypes.c_void_p
         self.address = find(arm.name.encode(), f"{quantity}{variant}".encode())
-        self.is_batch = library.symbol == "batch_kernel"
+        self.kind = library.kind
         self.times = np.array([])
 
     def values(self, x):
         """The results for every row of x."""
         out = np.zeros((len(x), self.size))
-        if self.is_batch:
+        if self.kind == "batch":
             for states, results in zip(blocks(x), range(0, len(x), BLOCK)):
                 BATCH(self.address)(states.ctypes.data, states.size // self.width, out[results:].ctypes.data)
-        else:
-            for state, result in zip(x, out):
-                SINGLE(self.address)(state.ctypes.data, result.ctypes.data)
+            return out
+        for state, result in zip(x, out):
+            ends = state.ctypes.data, result.ctypes.data
+            SINGLE(self.address)(*(ends if self.kind == "single" else reversed(ends)))
         return out
 
 
@@ -107,7 +108,7 @@ def whole(kernel, values):
 
 
 class Peer(ctypes.Structure):
-    _fields_ = [("single", ctypes.c_void_p), ("batch", ctypes.c_void_p)]
+    _fields_ = [("single", ctypes.c_void_p), ("returning", ctypes.c_void_p), ("batch", ctypes.c_void_p)]
 
 
 def time_in_turns(kernels, arm, rounds, count=8 * BLOCK, seed=2):
@@ -117,7 +118,7 @@ def time_in_turns(kernels, arm, rounds, count=8 * BLOCK, seed=2):
     in_blocks = np.concatenate([block.ravel() for block in blocks(x)])
     for quantity in QUANTITIES:
         same = [kernel for kernel in kernels if kernel.quantity == quantity]
-        pointers = [(None, kernel.address) if kernel.is_batch else (kernel.address, None) for kernel in same]
+        pointers = [Peer(**{kernel.kind: kernel.address}) for kernel in same]
         seconds, out = np.zeros((rounds, len(same))), np.zeros(BLOCK * same[0].size)
         timer.time_in_turns(
             (Peer * len(same))(*pointers), len(same), pointer(x), pointer(in_blocks), x.shape[1], count, BLOCK, rounds,

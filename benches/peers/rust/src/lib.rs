@@ -1,35 +1,51 @@
 //! ulna's methods behind C functions, so that one timer can call every peer in the same way.
 
+// Matrices and pairs go from Rust to Rust only.
+#![allow(improper_ctypes_definitions)]
+
 use std::ffi::{CStr, c_char};
-use std::mem::offset_of;
+use std::mem::{MaybeUninit, offset_of, transmute};
 use std::slice;
 
 use ulna::nalgebra::{SMatrix, SVector};
 use ulna::{Arm, ArmBatch};
 
-/// Reads q, q̇ and q̈ (or τ) one after the other, and writes its results one after the other, matrices by columns.
-type Kernel = unsafe extern "C" fn(*const f64, *mut f64);
+/// Returns its results one after the other, matrices by columns; for C, a function that is told where they go, by the
+/// x86-64 calling convention. The value is then made where it belongs, as in `let value = …`, and not copied there.
+type Kernel = unsafe extern "C" fn(*mut f64, *const f64);
 
-/// The three arguments that a kernel reads.
-///
-/// # Safety
-/// `x` points to `3 * N` numbers.
-unsafe fn arguments<'a, const N: usize>(x: *const f64) -> &'a [SVector<f64, N>; 3] {
-    // SAFETY: vectors of fixed size are their components, contiguous.
-    unsafe { &*x.cast() }
+/// A small value, made larger than what is returned in registers.
+#[repr(C)]
+struct Roomy<T> {
+    value: T,
+    room: [MaybeUninit<f64>; 2],
 }
 
-/// A kernel that writes one value: numbers alone, contiguous.
+/// A kernel of one value: numbers alone, contiguous. It reads q, q̇ and q̈ (or τ) one after the other.
 macro_rules! kernel {
     ($n:literal, $result:ty, |$q:ident, $qd:ident, $qdd:ident| $value:expr) => {{
-        unsafe extern "C" fn kernel(x: *const f64, out: *mut f64) {
-            // SAFETY: the caller passes 3N arguments and room for the results; whatever is made of numbers
-            // is aligned like a number.
-            let ([$q, $qd, $qdd], out) =
-                unsafe { (arguments::<$n>(x), &mut *out.cast::<$result>()) };
-            *out = $value;
+        type Arguments = [SVector<f64, $n>; 3];
+        extern "C" fn value([$q, $qd, $qdd]: &Arguments) -> $result {
+            $value
         }
-        Some(kernel as Kernel)
+        extern "C" fn roomy(x: &Arguments) -> Roomy<$result> {
+            Roomy {
+                value: value(x),
+                room: [MaybeUninit::uninit(); 2],
+            }
+        }
+        type Direct = extern "C" fn(&Arguments) -> $result;
+        type ByRoom = extern "C" fn(&Arguments) -> Roomy<$result>;
+        // SAFETY: more than 16 bytes are returned where the first argument points. The caller of a `Kernel` passes
+        // 3N numbers and room for the result; vectors of fixed size are their components, contiguous, and whatever
+        // is made of numbers is aligned like a number.
+        Some(unsafe {
+            if size_of::<$result>() > 16 {
+                transmute::<Direct, Kernel>(value)
+            } else {
+                transmute::<ByRoom, Kernel>(roomy)
+            }
+        })
     }};
 }
 
