@@ -2,25 +2,10 @@
 """Arms of ever more joints: what it costs to generate, to compile and to call each quantity."""
 
 import argparse
-import os
-import subprocess
 import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-VENV = HERE / ".venv"
-
-
-def in_virtual_environment():
-    """Runs this script again by the virtual environment's interpreter, which is made first."""
-    wanted = (HERE / "requirements.txt").read_text()
-    installed = VENV / "requirements.txt"
-    if not installed.exists() or installed.read_text() != wanted:
-        subprocess.run([sys.executable, "-m", "venv", "--clear", VENV], check=True)
-        subprocess.run([VENV / "bin/pip", "install", "--quiet", "-r", HERE / "requirements.txt"], check=True)
-        installed.write_text(wanted)
-    python = str(VENV / "bin/python")
-    os.execv(python, [python, __file__, *sys.argv[1:]])
 
 
 def main():
@@ -60,4 +45,8 @@ def main():
 
 
 if __name__ == "__main__":
-    main() if Path(sys.prefix) == VENV else in_virtual_environment()
+    sys.path.append(str(HERE.parent))
+    import virtual_environment
+
+    virtual_environment.enter(HERE)
+    main()

@@ -13,20 +13,14 @@ import sys
 import tempfile
 from pathlib import Path
 
+from peers.quantities import QUANTITIES
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 TARGET = ROOT / "target/peers/rust-default"
 COUNTS = HERE / "instructions.csv"
 CALLS = 16  # as in native/count.c
 TOLERANCE = 0.01
-QUANTITIES = [
-    "geometric_jacobian",
-    "mass_matrix",
-    "mass_matrix_derivatives",
-    "dynamic_manipulability_gradient",
-    "inverse_dynamics",
-    "forward_dynamics",
-]
 
 
 def main():

@@ -7,6 +7,7 @@ import casadi as ca
 
 from . import textbook
 from .arm import Arm
+from .quantities import QUANTITIES
 
 MATH = {
     "add": lambda a, b: a + b,
@@ -77,17 +78,7 @@ def ours(arm: Arm, x: Arguments, listing):
 
 def our_programs(arm: Arm, x: Arguments, listing):
     """Our programs to the last operation: what is left is the difference of compilers, sines and multiply-adds."""
-    outputs = {
-        name: rebuild(listing["methods"][name], x)
-        for name in (
-            "geometric_jacobian",
-            "mass_matrix",
-            "mass_matrix_derivatives",
-            "dynamic_manipulability_gradient",
-            "inverse_dynamics",
-            "forward_dynamics",
-        )
-    }
+    outputs = {name: rebuild(listing["methods"][name], x) for name in QUANTITIES}
     w = outputs["dynamic_manipulability_gradient"]
     outputs["dynamic_manipulability_gradient"] = {"both": ca.vertcat(w["value"], w["gradient"])}
     return {name: next(iter(built.values())) for name, built in outputs.items()}

@@ -8,18 +8,10 @@ import numpy as np
 
 from .arm import Arm
 from .build import BUILD, HERE, Library
+from .quantities import QUANTITIES
 
 TOLERANCE = 1e-9
 
-# quantity -> how many numbers it is for n joints
-QUANTITIES = {
-    "geometric_jacobian": lambda n: 6 * n,
-    "mass_matrix": lambda n: n * n,
-    "mass_matrix_derivatives": lambda n: n**3,
-    "dynamic_manipulability_gradient": lambda n: 1 + n,
-    "inverse_dynamics": lambda n: n,
-    "forward_dynamics": lambda n: n,
-}
 # Two of Pinocchio's ways to the same quantity; the faster one is reported.
 VARIANTS = {"mass_matrix": ["local"], "geometric_jacobian": ["joints"]}
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from .arm import ROWS
-from .measure import QUANTITIES
+from .quantities import QUANTITIES
 
 TITLES = {
     "geometric_jacobian": "J, six rows",
