@@ -126,18 +126,6 @@ impl Graph {
         self.angles.borrow()[index].clone()
     }
 
-    /// An operator over two expressions, folded.
-    pub fn apply<'g>(&'g self, op: Op, a: Expr<'g>, b: Expr<'g>) -> Expr<'g> {
-        match op {
-            Op::Add => a + b,
-            Op::Sub => a - b,
-            Op::Mul => a * b,
-            Op::Div => a / b,
-            Op::Neg => -a,
-            Op::Sqrt => a.sqrt(),
-        }
-    }
-
     pub(crate) fn intern(&self, node: Node) -> Expr<'_> {
         let id = *self.places.borrow_mut().entry(node).or_insert_with(|| {
             let mut nodes = self.nodes.borrow_mut();
