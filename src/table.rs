@@ -39,9 +39,15 @@ pub(crate) enum AngleUnit {
 }
 
 impl AngleUnit {
-    /// The word for each.
-    pub(crate) const WORDS: [(&'static str, Self); 2] =
-        [("deg", Self::Degrees), ("rad", Self::Radians)];
+    /// Reads the unit, which every file with angles in it must name.
+    pub(crate) fn read(fields: &mut Fields<'_>) -> Option<Self> {
+        let unit = fields.required(
+            "angle_unit",
+            "angle_unit = \"deg\"` or `angle_unit = \"rad\"",
+        )?;
+        let unit = unit.choice(&[("deg", Self::Degrees), ("rad", Self::Radians)])?;
+        Some(unit.value)
+    }
 }
 
 /// `[base]` or `[tool]`.
@@ -103,13 +109,7 @@ impl ArmTable {
                     ])
                 })
                 .map(|convention| convention.value),
-            angle_unit: fields
-                .required(
-                    "angle_unit",
-                    "angle_unit = \"deg\"` or `angle_unit = \"rad\"",
-                )
-                .and_then(|value| value.choice(&AngleUnit::WORDS))
-                .map(|unit| unit.value),
+            angle_unit: AngleUnit::read(fields),
             gravity: fields
                 .optional("gravity", "gravity = [0.0, 0.0, -9.81]")
                 .and_then(Value::numbers),

@@ -77,13 +77,7 @@ impl ScenarioTable {
                 fields.optional("description", "description = \"what it is about\""),
             ),
             arm: string(fields.required("arm", "arm = \"ssrms\"` or `arm = \"my_arm.toml\"")),
-            angle_unit: fields
-                .required(
-                    "angle_unit",
-                    "angle_unit = \"deg\"` or `angle_unit = \"rad\"",
-                )
-                .and_then(|value| value.choice(&AngleUnit::WORDS))
-                .map(|unit| unit.value),
+            angle_unit: AngleUnit::read(fields),
             motion: fields
                 .required(
                     "motion",
