@@ -7,7 +7,7 @@ use bytemuck::cast_slice_mut;
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 
 use crate::simd::{self, BLOCK, BatchCall, Lanes, MAX_WIDTH};
-use crate::unrolled::{Margins, are_plain, coordinates, is_singular};
+use crate::unrolled::{are_plain, coordinates};
 use crate::{Arm, SerialChain, Unrolled};
 
 /// A result of a method, in parts as a kernel returns them, each of numbers in a row.
@@ -177,26 +177,28 @@ fn gather_coordinates<A: Unrolled<N>, R: Lanes, const N: usize>(q: &[SVector<f64
 
 /// Sets right what the singular ones among the lanes have.
 #[inline(always)]
-fn settle<R: Lanes, T: Slots>(margins: &Margins<R>, out: &mut [T]) {
-    let mut apart = [[[0.0; 6]; 2]; MAX_WIDTH];
-    for (part, row) in margins.iter().enumerate() {
-        for (index, lanes) in row.iter().enumerate() {
-            for (margins, number) in apart.iter_mut().zip(lanes.store()) {
-                margins[part][index] = number;
-            }
+fn settle<A: Unrolled<N>, R: Lanes, T: Slots, const N: usize>(
+    q: &[R; N],
+    volume_squared: R,
+    out: &mut [T],
+) {
+    let mut apart = [[0.0; N]; MAX_WIDTH];
+    for (joint, lanes) in q.iter().enumerate() {
+        for (q, number) in apart.iter_mut().zip(lanes.store()) {
+            q[joint] = number;
         }
     }
-    for (result, margins) in out.iter_mut().zip(&apart) {
-        if is_singular(margins) {
+    for ((result, q), volume) in out.iter_mut().zip(&apart).zip(volume_squared.store()) {
+        if A::CHAIN.is_singular(q, volume) {
             result.settle();
         }
     }
 }
 
 /// Every method: its name in a batch, its own, the first argument `q` and the others, the result, the kernel,
-/// and what of the kernel's returns are the result's parts and, of w_D, the margins.
+/// and what of the kernel's returns are the result's parts and, of w_D, the volume.
 macro_rules! methods {
-    ($($batch:ident $method:ident(q $(, $other:ident)*) -> $output:ty = $kernel:ident |$result:pat_param| ($($part:ident),+) $(, $margins:ident)?;)+) => {
+    ($($batch:ident $method:ident(q $(, $other:ident)*) -> $output:ty = $kernel:ident |$result:pat_param| ($($part:ident),+) $(, $volume:ident)?;)+) => {
         /// An arm that computes many states at once.
         ///
         /// Each method writes as many results as both the states and `out` have room for; lengths may be anything.
@@ -244,7 +246,7 @@ macro_rules! methods {
                                 for (part, numbers) in parts.into_iter().enumerate() {
                                     scatter(numbers, part, out);
                                 }
-                                $(settle(&$margins, out);)?
+                                $(settle::<A, R, _, N>(&q, $volume, out);)?
                             }
                         }
                     }
@@ -266,14 +268,14 @@ methods! {
     jacobian_derivatives_batch jacobian_derivatives(q) -> [SMatrix<f64, 6, N>; N] = jacobian_derivatives_kernel |all| (all);
     mass_matrix_batch mass_matrix(q) -> SMatrix<f64, N, N> = mass_matrix_kernel |all| (all);
     mass_matrix_derivatives_batch mass_matrix_derivatives(q) -> [SMatrix<f64, N, N>; N] = mass_matrix_derivatives_kernel |all| (all);
-    dynamic_manipulability_batch dynamic_manipulability(q) -> f64 = dynamic_manipulability_kernel |(value, margins)| (value), margins;
-    dynamic_manipulability_gradient_batch dynamic_manipulability_gradient(q) -> (f64, SVector<f64, N>) = dynamic_manipulability_gradient_kernel |(value, gradient, margins)| (value, gradient), margins;
+    dynamic_manipulability_batch dynamic_manipulability(q) -> f64 = dynamic_manipulability_kernel |(value, volume)| (value), volume;
+    dynamic_manipulability_gradient_batch dynamic_manipulability_gradient(q) -> (f64, SVector<f64, N>) = dynamic_manipulability_gradient_kernel |(value, gradient, volume)| (value, gradient), volume;
     inverse_dynamics_batch inverse_dynamics(q, qd, qdd) -> SVector<f64, N> = inverse_dynamics_kernel |all| (all);
     bias_force_batch bias_force(q, qd) -> SVector<f64, N> = bias_force_kernel |all| (all);
     gravity_torque_batch gravity_torque(q) -> SVector<f64, N> = gravity_torque_kernel |all| (all);
     forward_dynamics_batch forward_dynamics(q, qd, tau) -> SVector<f64, N> = forward_dynamics_kernel |all| (all);
     mass_matrix_and_derivatives_batch mass_matrix_and_derivatives(q) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) = mass_matrix_and_derivatives_kernel |(mass, derivatives)| (mass, derivatives);
-    jacobian_and_gradient_batch jacobian_and_gradient(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) = jacobian_and_gradient_kernel |(jacobian, value, gradient, margins)| (jacobian, value, gradient), margins;
+    jacobian_and_gradient_batch jacobian_and_gradient(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) = jacobian_and_gradient_kernel |(jacobian, value, gradient, volume)| (jacobian, value, gradient), volume;
 }
 
 /// Runs `batch` on chunks of the states in parallel: `in_parallel(&q, &mut out, |q, out| arm.mass_matrix_batch(q, out))`.

@@ -5,6 +5,7 @@ pub use nalgebra;
 
 pub mod arm;
 pub mod batch;
+pub mod bounds;
 pub mod compensation;
 #[cfg(feature = "table")]
 pub mod diagnostics;
@@ -15,7 +16,8 @@ pub mod generic;
 pub mod model;
 pub mod null_space;
 pub mod proof;
-mod random;
+#[doc(hidden)]
+pub mod random;
 pub mod real;
 #[cfg(feature = "table")]
 pub mod scenario;
@@ -23,6 +25,7 @@ pub mod scenario;
 pub mod search;
 pub mod simd;
 pub mod simulation;
+pub mod singular;
 #[cfg(feature = "table")]
 mod table;
 #[cfg(feature = "table")]

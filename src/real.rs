@@ -120,26 +120,29 @@ scalar!(f64, libm::sqrt, libm::sincos, {
 });
 scalar!(f32, libm::sqrtf, libm::sincosf, {});
 
-/// The farthest that a prismatic joint's coordinate is read as, m.
+/// The farthest that a prismatic joint's coordinate is read as, m: ten times the longest link of a table.
 ///
-/// No mechanism reaches it, and with it no product of a mass matrix's entries leaves the range of `f64`.
-pub const PRISMATIC_LIMIT: f64 = 1e12;
+/// Farther out, what a light link before the joint adds to M would drown in the rounding of what the joint carries:
+/// tables are refused whose links are too light for this distance.
+pub const PRISMATIC_LIMIT: f64 = 1e3;
 
 /// A prismatic joint's coordinate as every backend reads it: held within ±[`PRISMATIC_LIMIT`],
-/// so that no finite coordinate, however absurd, makes a result NaN.
-///
-/// A revolute joint's coordinate needs no such rule: it enters by [`Real::sin_cos`] only, which is defined for every finite angle.
+/// so that no finite coordinate, however absurd, makes a result NaN. An infinite one is no coordinate: NaN.
 #[inline]
 pub fn prismatic_offset(q: f64) -> f64 {
-    q.clamp(-PRISMATIC_LIMIT, PRISMATIC_LIMIT)
+    if q.is_infinite() {
+        f64::NAN
+    } else {
+        q.clamp(-PRISMATIC_LIMIT, PRISMATIC_LIMIT)
+    }
 }
 
-/// Up to here coordinates, rad or m, are read as they are by [`revolute_angle`] and [`prismatic_offset`].
-pub const PLAIN_LIMIT: f64 = 1_048_576.0;
+/// Up to here coordinates, rad or m, are read as they are by [`revolute_angle`] and [`prismatic_offset`]: two turns and a half.
+pub const PLAIN_LIMIT: f64 = 16.0;
 
-/// A revolute joint's coordinate as generated code reads it: beyond [`PLAIN_LIMIT`], the same angle within ±π.
+/// A revolute joint's coordinate as generated code reads it: beyond [`PLAIN_LIMIT`], the same angle within ±π. NaN if infinite.
 ///
-/// Generated code adds angles of parallel joints before it takes their sine; of huge angles the sum would be rounded
+/// Generated code adds angles of parallel joints before it takes their sine; of large angles the sum would be rounded
 /// coarsely, or overflow. The sine and cosine of the angle itself are exact however large it is.
 #[inline]
 pub fn revolute_angle(q: f64) -> f64 {

@@ -3,18 +3,10 @@
 pub use crate::real::{PLAIN_LIMIT, prismatic_offset, revolute_angle};
 use crate::{JointKind, Real, SerialChain};
 
-/// The squared distance of a row of H from the span of those before, relative to the longest row's squared length,
-/// below which it is rounding: a distance of 1e-10. (Not relative to its own: a row that ought to be 0 is all rounding.)
-const ROUNDING: f64 = 1e-20;
-
-/// How far the task is from singular: the squared distance of each row of H = JM⁻¹ from the span of those before,
-/// and the squared length of each, both filled up to six by repeating the first.
-pub type Margins<R> = [[R; 6]; 2];
-
 /// The arithmetic of every method of [`Arm`](crate::Arm), on any [`Real`].
 ///
 /// Each kernel is a straight line of operations without branches. A matrix is an array of its columns.
-/// Coordinates are passed through [`coordinates`] first, and [`is_singular`] judges the margins of w_D after.
+/// Coordinates are passed through [`coordinates`] first, and [`SerialChain::is_singular`] judges the volume of J's rows after.
 pub trait Unrolled<const N: usize> {
     /// The arm as data.
     const CHAIN: SerialChain<N>;
@@ -34,11 +26,11 @@ pub trait Unrolled<const N: usize> {
     /// ∂M/∂q_i.
     fn mass_matrix_derivatives_kernel<R: Real>(q: &[R; N]) -> [[[R; N]; N]; N];
 
-    /// w_D, and the margins.
-    fn dynamic_manipulability_kernel<R: Real>(q: &[R; N]) -> (R, Margins<R>);
+    /// w_D, and det(JJᵀ) over the task's rows.
+    fn dynamic_manipulability_kernel<R: Real>(q: &[R; N]) -> (R, R);
 
-    /// w_D, ∇w_D, and the margins.
-    fn dynamic_manipulability_gradient_kernel<R: Real>(q: &[R; N]) -> (R, [R; N], Margins<R>);
+    /// w_D, ∇w_D, and det(JJᵀ) over the task's rows.
+    fn dynamic_manipulability_gradient_kernel<R: Real>(q: &[R; N]) -> (R, [R; N], R);
 
     /// τ = M q̈ + c + g.
     fn inverse_dynamics_kernel<R: Real>(q: &[R; N], qd: &[R; N], qdd: &[R; N]) -> [R; N];
@@ -55,8 +47,8 @@ pub trait Unrolled<const N: usize> {
     /// M and ∂M/∂q_i.
     fn mass_matrix_and_derivatives_kernel<R: Real>(q: &[R; N]) -> ([[R; N]; N], [[[R; N]; N]; N]);
 
-    /// J, w_D, ∇w_D, and the margins.
-    fn jacobian_and_gradient_kernel<R: Real>(q: &[R; N]) -> ([[R; 6]; N], R, [R; N], Margins<R>);
+    /// J, w_D, ∇w_D, and det(JJᵀ) over the task's rows.
+    fn jacobian_and_gradient_kernel<R: Real>(q: &[R; N]) -> ([[R; 6]; N], R, [R; N], R);
 }
 
 /// Whether kernels may read the joint coordinates as they are: always, but for absurd ones.
@@ -85,18 +77,6 @@ pub fn coordinates<const N: usize>(chain: &SerialChain<N>, q: &[f64; N]) -> [f64
     })
 }
 
-/// Whether w_D counts as 0: Eq. 23 would divide by it.
-#[inline(always)]
-pub fn is_singular(margins: &Margins<f64>) -> bool {
-    let [distances, lengths] = margins;
-    let rounding = ROUNDING * largest(*lengths);
-    let mut clear = true;
-    for distance in distances {
-        clear &= *distance > rounding;
-    }
-    !clear
-}
-
 /// Runs a kernel on the best scalar of the machine: `on_machine!(A, N, kernel(arguments) -> output)`, arguments as arrays
 /// by reference; `|result: type| output` makes the output of what the kernel returns, in the same function.
 macro_rules! on_machine {
@@ -112,8 +92,9 @@ macro_rules! on_machine {
             type Output = $output;
             #[inline(always)]
             fn run<R: Double>(self) -> $output {
+                $(let $argument = self.$argument;)+
                 let $result: $plain =
-                    $arm::$kernel::<R>($(cast_ref::<[f64; $n], [R; $n]>(self.$argument)),+).plain();
+                    $arm::$kernel::<R>($(cast_ref::<[f64; $n], [R; $n]>($argument)),+).plain();
                 $finish
             }
         }
@@ -128,7 +109,7 @@ pub mod methods {
     use bytemuck::cast_ref;
     use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3, Vector3};
 
-    use super::{Margins, Unrolled, are_plain, coordinates, is_singular};
+    use super::{Unrolled, are_plain, coordinates};
     use crate::simd::{self, Call, Double, Plain as _};
 
     /// Names the coordinates `$q` as an array that a kernel may read, in place wherever it may.
@@ -147,12 +128,13 @@ pub mod methods {
 
     /// w_D and ∇w_D, or zeros where the task is singular.
     #[inline(always)]
-    fn settle<const N: usize>(
+    fn settle<A: Unrolled<N>, const N: usize>(
+        q: &[f64; N],
         value: f64,
         gradient: SVector<f64, N>,
-        margins: &Margins<f64>,
+        volume_squared: f64,
     ) -> (f64, SVector<f64, N>) {
-        if is_singular(margins) {
+        if A::CHAIN.is_singular(q, volume_squared) {
             (0.0, SVector::zeros())
         } else {
             (value, gradient)
@@ -207,8 +189,8 @@ pub mod methods {
     pub fn dynamic_manipulability<A: Unrolled<N>, const N: usize>(q: &SVector<f64, N>) -> f64 {
         read!(A, q);
         on_machine!(A, N, dynamic_manipulability_kernel(q)
-        |(value, margins): (f64, Margins<f64>)| -> f64 {
-            if is_singular(&margins) { 0.0 } else { value }
+        |(value, volume): (f64, f64)| -> f64 {
+            if A::CHAIN.is_singular(q, volume) { 0.0 } else { value }
         })
     }
 
@@ -218,8 +200,8 @@ pub mod methods {
     ) -> (f64, SVector<f64, N>) {
         read!(A, q);
         on_machine!(A, N, dynamic_manipulability_gradient_kernel(q)
-        |(value, gradient, margins): (f64, SVector<f64, N>, Margins<f64>)| -> (f64, SVector<f64, N>) {
-            settle(value, gradient, &margins)
+        |(value, gradient, volume): (f64, SVector<f64, N>, f64)| -> (f64, SVector<f64, N>) {
+            settle::<A, N>(q, value, gradient, volume)
         })
     }
 
@@ -277,9 +259,9 @@ pub mod methods {
     ) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
         read!(A, q);
         on_machine!(A, N, jacobian_and_gradient_kernel(q)
-        |(jacobian, value, gradient, margins): (SMatrix<f64, 6, N>, f64, SVector<f64, N>, Margins<f64>)|
+        |(jacobian, value, gradient, volume): (SMatrix<f64, 6, N>, f64, SVector<f64, N>, f64)|
         -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
-            let (value, gradient) = settle(value, gradient, &margins);
+            let (value, gradient) = settle::<A, N>(q, value, gradient, volume);
             (jacobian, value, gradient)
         })
     }

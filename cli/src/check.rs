@@ -4,10 +4,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use ulna::nalgebra::DMatrix;
-use ulna::{Arm, JointKind, Model, SerialChain, TaskRow, proof};
+use ulna::{JointKind, Model, TaskRow};
 
-use crate::joints::{ForChain, with_chain};
 use crate::{Verdict, console};
 
 /// Read tables: a summary of each arm, or every error with its line
@@ -25,12 +23,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         match Model::lint(path) {
             Ok((model, warnings)) => {
                 console::report(&warnings);
-                if is_singular_everywhere(&model) {
-                    console::warning(&format!(
-                        "{}: w_D is 0 in every configuration: the rows of the task depend on each other",
-                        path.display()
-                    ));
-                }
+                console::warnings(path, &ulna_codegen::warnings(&model));
                 summarize(path, &model, out)?;
             }
             Err(errors) => {
@@ -79,24 +72,4 @@ fn kind(kind: JointKind) -> &'static str {
         JointKind::Revolute => "R",
         JointKind::Prismatic => "P",
     }
-}
-
-/// Whether the task's rows of J depend on each other at all of some random configurations, so that w_D is 0 there.
-/// An arm with too many joints to try gets the benefit of the doubt.
-fn is_singular_everywhere(model: &Model) -> bool {
-    struct Try;
-    impl ForChain for Try {
-        type Output = bool;
-        fn run<const N: usize>(self, chain: &SerialChain<N>) -> bool {
-            let singular = |state: proof::State<N>| {
-                let jacobian = chain.geometric_jacobian(&state.q);
-                let rows: Vec<_> = chain.task.iter().map(TaskRow::index).collect();
-                let jacobian = DMatrix::from_fn(rows.len(), N, |i, j| jacobian[(rows[i], j)]);
-                let rounding = 1e-10 * jacobian.amax();
-                jacobian.rank(rounding) < rows.len()
-            };
-            proof::states(chain).take(20).all(singular)
-        }
-    }
-    with_chain(model, Try).unwrap_or(false)
 }

@@ -1,7 +1,10 @@
 //! What goes to stderr. Colours only on a terminal that wants them: `anstream` looks at it and at `NO_COLOR`.
 
+use std::path::Path;
+
 use clap::builder::styling::{AnsiColor, Style};
 use ulna::diagnostics::Diagnostics;
+use ulna::{Model, TableErrors};
 
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();
@@ -13,6 +16,13 @@ pub(crate) fn report(found: &Diagnostics) {
     }
 }
 
+/// Reads the table at `path`, and reports what is allowed in it but rarely meant.
+pub(crate) fn load(path: &Path) -> Result<Model, TableErrors> {
+    let (model, warnings) = Model::lint(path)?;
+    report(&warnings);
+    Ok(model)
+}
+
 /// One error that is not about a place in a table.
 pub(crate) fn error(message: &str) {
     anstream::eprintln!("{ERROR}error{ERROR:#}: {message}");
@@ -21,6 +31,13 @@ pub(crate) fn error(message: &str) {
 /// One warning that is not about a place in a table.
 pub(crate) fn warning(message: &str) {
     anstream::eprintln!("{WARNING}warning{WARNING:#}: {message}");
+}
+
+/// What the generator says of the arm whose table stands at `path`.
+pub(crate) fn warnings(path: &Path, sentences: &[String]) {
+    for sentence in sentences {
+        warning(&format!("{}: {sentence}", path.display()));
+    }
 }
 
 /// What has been done.

@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 use ulna::Model;
 use ulna_codegen::{Counts, Generated};
 
-use crate::Verdict;
+use crate::{Verdict, console};
 
 /// Count the operations of an arm's code
 #[derive(Args)]
@@ -27,9 +27,10 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
-    let model = Model::load(&arguments.table)?;
+    let model = console::load(&arguments.table)?;
     let start = Instant::now();
     let generated = ulna_codegen::generate(&model, &arguments.table.display().to_string());
+    console::warnings(&arguments.table, generated.warnings());
     let lines = generated.source().lines().count();
     let seconds = start.elapsed().as_secs_f64();
     if arguments.json {

@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use clap::Args;
-use ulna::Model;
 
-use crate::Verdict;
 use crate::output::write_whole;
+use crate::{Verdict, console};
 
 /// Emit the Rust code of an arm
 #[derive(Args)]
@@ -27,8 +26,10 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
-    let model = Model::load(&arguments.table)?;
-    let code = ulna_codegen::generate(&model, &arguments.table.display().to_string()).source();
+    let model = console::load(&arguments.table)?;
+    let generated = ulna_codegen::generate(&model, &arguments.table.display().to_string());
+    console::warnings(&arguments.table, generated.warnings());
+    let code = generated.source();
     match &arguments.output {
         None => out.write_all(code.as_bytes())?,
         Some(file) if arguments.check => check(file, &code, &arguments.table)?,

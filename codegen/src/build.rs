@@ -5,6 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use ulna::diagnostics::Diagnostics;
 use ulna::{Model, TableErrors};
 
 use crate::generate;
@@ -130,8 +131,11 @@ fn list(models: &[Model]) -> String {
 fn compile_into_out_dir(tables: &[impl AsRef<Path>]) -> Result<Vec<Model>, Error> {
     let models = load_all(tables)?;
     for (path, model) in &models {
-        let code = generate(model, &path.display().to_string()).source();
-        write_to_out_dir(&model.name, &code)?;
+        let generated = generate(model, &path.display().to_string());
+        for sentence in generated.warnings() {
+            println!("cargo::warning={}: {sentence}", path.display());
+        }
+        write_to_out_dir(&model.name, &generated.source())?;
     }
     Ok(models.into_iter().map(|(_, model)| model).collect())
 }
@@ -146,12 +150,24 @@ fn write_to_out_dir(name: &str, text: &str) -> Result<(), Error> {
         .map_err(|source| Error::Write { path, source })
 }
 
+/// What is allowed in a table but rarely meant, line by line as cargo wants it.
+fn warn(found: &Diagnostics) {
+    if !found.is_empty() {
+        for line in found.to_string().lines() {
+            println!("cargo::warning={line}");
+        }
+    }
+}
+
 fn load_all(tables: &[impl AsRef<Path>]) -> Result<Vec<(&Path, Model)>, Error> {
     let mut models: Vec<(&Path, Model)> = Vec::new();
     let mut errors = Vec::new();
     for table in tables.iter().map(AsRef::as_ref) {
-        match Model::load(table) {
-            Ok(model) => models.push((table, model)),
+        match Model::lint(table) {
+            Ok((model, found)) => {
+                warn(&found);
+                models.push((table, model));
+            }
             Err(error) => errors.push(error),
         }
     }

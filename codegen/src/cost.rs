@@ -19,7 +19,10 @@ impl Counts {
     pub fn of(program: &Program) -> Self {
         let count = |op: Op| program.steps.iter().filter(|step| step.op == op).count();
         Self {
-            operations: Op::ALL.map(|op| (op.row().name, count(op))).to_vec(),
+            operations: Op::ALL
+                .iter()
+                .map(|op| (op.row().name, count(*op)))
+                .collect(),
             total: program.steps.len(),
             sin_cos: program.angles.len(),
         }

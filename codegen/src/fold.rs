@@ -2,6 +2,9 @@
 
 use std::ops;
 
+use ulna::Real;
+
+use crate::double_double::DoubleDouble;
 use crate::graph::{Expr, Node};
 use crate::op::Op;
 
@@ -25,8 +28,8 @@ impl ops::Add for Expr<'_> {
     fn add(self, other: Self) -> Self {
         match (self.value(), other.value()) {
             (Some(a), Some(b)) => return self.of(a + b),
-            (Some(0.0), _) => return other,
-            (_, Some(0.0)) => return self,
+            (Some(a), _) if a == 0.0 => return other,
+            (_, Some(b)) if b == 0.0 => return self,
             (Some(a), _) if a < 0.0 => return other - self.of(-a),
             (_, Some(b)) if b < 0.0 => return self - self.of(-b),
             _ => {}
@@ -55,8 +58,8 @@ impl ops::Sub for Expr<'_> {
     fn sub(self, other: Self) -> Self {
         match (self.value(), other.value()) {
             (Some(a), Some(b)) => return self.of(a - b),
-            (Some(0.0), _) => return -other,
-            (_, Some(0.0)) => return self,
+            (Some(a), _) if a == 0.0 => return -other,
+            (_, Some(b)) if b == 0.0 => return self,
             (_, Some(b)) if b < 0.0 => return self + self.of(-b),
             _ => {}
         }
@@ -85,9 +88,14 @@ impl ops::Sub for Expr<'_> {
 }
 
 /// `c x ± d x = (c ± d) x` for numbers `c` and `d`.
-fn combine<'g>(a: Expr<'g>, b: Expr<'g>, sum: fn(f64, f64) -> f64) -> Option<Expr<'g>> {
-    let (c, x) = a.scaled().unwrap_or((1.0, a));
-    let (d, y) = b.scaled().unwrap_or((1.0, b));
+fn combine<'g>(
+    a: Expr<'g>,
+    b: Expr<'g>,
+    sum: fn(DoubleDouble, DoubleDouble) -> DoubleDouble,
+) -> Option<Expr<'g>> {
+    let one = DoubleDouble::of(1.0);
+    let (c, x) = a.scaled().unwrap_or((one, a));
+    let (d, y) = b.scaled().unwrap_or((one, b));
     (x == y).then(|| a.of(sum(c, d)) * x)
 }
 
@@ -97,9 +105,9 @@ impl ops::Mul for Expr<'_> {
     fn mul(self, other: Self) -> Self {
         match (self.value(), other.value()) {
             (Some(a), Some(b)) => return self.of(a * b),
-            (Some(0.0), _) | (_, Some(0.0)) => return self.of(0.0),
-            (Some(1.0), _) => return other,
-            (_, Some(1.0)) => return self,
+            (Some(a), _) | (_, Some(a)) if a == 0.0 => return self.of(0.0),
+            (Some(a), _) if a == 1.0 => return other,
+            (_, Some(b)) if b == 1.0 => return self,
             (Some(a), _) if a < 0.0 => return -(self.of(-a) * other),
             (_, Some(b)) if b < 0.0 => return -(self * other.of(-b)),
             _ => {}
@@ -128,8 +136,8 @@ impl ops::Div for Expr<'_> {
     fn div(self, other: Self) -> Self {
         match (self.value(), other.value()) {
             (Some(a), Some(b)) => return self.of(a / b),
-            (Some(0.0), _) => return self,
-            (_, Some(b)) => return self * self.of(1.0 / b),
+            (Some(a), _) if a == 0.0 => return self,
+            (_, Some(b)) => return self * self.of(DoubleDouble::of(1.0) / b),
             (Some(a), _) if a < 0.0 => return -(self.of(-a) / other),
             _ => {}
         }

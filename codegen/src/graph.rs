@@ -7,6 +7,9 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::fmt;
 
+use ulna::Real;
+
+use crate::double_double::DoubleDouble;
 use crate::op::Op;
 
 /// A node's place in the graph. Arguments always stand before the nodes that use them.
@@ -23,8 +26,8 @@ impl Id {
 /// What a node is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
-    /// A number, by its bits.
-    Constant(u64),
+    /// A number, by the bits of its two doubles.
+    Constant([u64; 2]),
     /// An argument of the function to be generated.
     Input(Input),
     /// An operator over earlier nodes; a unary one repeats its argument.
@@ -57,7 +60,17 @@ pub struct AngleSum {
     /// The joints, ascending.
     pub joints: Vec<usize>,
     /// The constant, rad.
-    pub offset: f64,
+    pub offset: DoubleDouble,
+}
+
+impl AngleSum {
+    /// The angle at the joints' coordinates `q`, rad.
+    pub fn at<R: Real>(&self, q: impl Fn(usize) -> R, of: impl Fn(DoubleDouble) -> R) -> R {
+        let joints = self.joints.iter().map(|i| q(*i));
+        joints
+            .reduce(|sum, x| sum + x)
+            .map_or_else(|| of(self.offset), |sum| sum + of(self.offset))
+    }
 }
 
 /// The graph. Expressions borrow it, so that formulas can be written with operators.
@@ -101,9 +114,8 @@ impl Graph {
     }
 
     /// A number.
-    pub fn constant(&self, value: f64) -> Expr<'_> {
-        // 0.0 and -0.0 are one number here.
-        self.intern(Node::Constant((value + 0.0).to_bits()))
+    pub fn constant(&self, value: impl Into<DoubleDouble>) -> Expr<'_> {
+        self.intern(Node::Constant(value.into().to_bits()))
     }
 
     /// An argument of the generated function.
@@ -171,21 +183,21 @@ impl<'g> Expr<'g> {
     }
 
     /// A number of the same graph.
-    pub fn of(self, value: f64) -> Self {
+    pub fn of(self, value: impl Into<DoubleDouble>) -> Self {
         self.graph.constant(value)
     }
 
     /// The value, if it is a number.
-    pub fn value(self) -> Option<f64> {
+    pub fn value(self) -> Option<DoubleDouble> {
         match self.graph.node(self.id) {
-            Node::Constant(bits) => Some(f64::from_bits(bits)),
+            Node::Constant(bits) => Some(DoubleDouble::from_bits(bits)),
             _ => None,
         }
     }
 
     /// Whether the expression is the number 0.
     pub fn is_zero(self) -> bool {
-        self.value() == Some(0.0)
+        self.value().is_some_and(|value| value == 0.0)
     }
 
     /// The square root.
@@ -222,7 +234,7 @@ impl<'g> Expr<'g> {
     }
 
     /// `c` and `x` of `c + x`, `x - c` or `c - x`, where `c` is a number; and of the number itself.
-    pub(crate) fn raised(self) -> Option<(f64, Self)> {
+    pub(crate) fn raised(self) -> Option<(DoubleDouble, Self)> {
         if let Some(c) = self.value() {
             return Some((c, self.of(0.0)));
         }
@@ -234,7 +246,7 @@ impl<'g> Expr<'g> {
     }
 
     /// `c` and `x` of `c * x`, where `c` is a number.
-    pub(crate) fn scaled(self) -> Option<(f64, Self)> {
+    pub(crate) fn scaled(self) -> Option<(DoubleDouble, Self)> {
         let (a, b) = self.arguments(Op::Mul)?;
         a.value().map(|c| (c, b)).or(b.value().map(|c| (c, a)))
     }

@@ -1,17 +1,24 @@
 //! The generated programs, run as they are without a compiler: `ulna verify` proves a table's code this way.
 
+use std::marker::PhantomData;
+
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3};
 use ulna::{Arm, Model, SerialChain, TaskRows, unrolled};
 
 use crate::Method;
-use crate::graph::{AngleSum, Input};
+use crate::accuracy::{Scalar, read};
+use crate::double_double::DoubleDouble;
 
-/// An arm that evaluates its programs step by step.
+/// An arm that evaluates its programs step by step, on the scalars `R`; results are rounded to `f64`.
 #[derive(Debug)]
-pub struct Interpreter<const N: usize> {
+pub struct Interpreter<const N: usize, R = f64> {
     chain: SerialChain<N>,
     methods: Vec<Method>,
+    scalar: PhantomData<R>,
 }
+
+/// An arm without rounding errors but those of its results: its programs run in [`DoubleDouble`].
+pub type Exact<const N: usize> = Interpreter<N, DoubleDouble>;
 
 /// What the programs' arguments are read from.
 struct Arguments<const N: usize> {
@@ -21,24 +28,7 @@ struct Arguments<const N: usize> {
     tau: SVector<f64, N>,
 }
 
-impl<const N: usize> Arguments<N> {
-    fn read(&self, input: Input, angles: &[AngleSum]) -> f64 {
-        let angle = |index: usize| {
-            let AngleSum { joints, offset } = &angles[index];
-            joints.iter().map(|i| self.q[*i]).sum::<f64>() + offset
-        };
-        match input {
-            Input::Q(i) => self.q[i],
-            Input::Sin(index) => angle(index).sin(),
-            Input::Cos(index) => angle(index).cos(),
-            Input::Qd(i) => self.qd[i],
-            Input::Qdd(i) => self.qdd[i],
-            Input::Tau(i) => self.tau[i],
-        }
-    }
-}
-
-impl<const N: usize> Interpreter<N> {
+impl<const N: usize, R: Scalar> Interpreter<N, R> {
     /// The arm of `model`.
     ///
     /// # Errors
@@ -46,7 +36,8 @@ impl<const N: usize> Interpreter<N> {
     pub fn new(model: &Model) -> Result<Self, ulna::generic::JointCountError> {
         Ok(Self {
             chain: SerialChain::new(model)?,
-            methods: crate::compile(model),
+            methods: crate::compile(model).methods,
+            scalar: PhantomData,
         })
     }
 
@@ -55,9 +46,14 @@ impl<const N: usize> Interpreter<N> {
         let Some(Method { program, .. }) = self.methods.iter().find(|m| m.name == method) else {
             return Vec::new();
         };
+        let Arguments { q, qd, qdd, tau } = arguments;
+        let others = [qd, qdd, tau].map(SVector::as_slice);
         let mut all = program
-            .evaluate(|input, angles| arguments.read(input, angles))
-            .into_iter();
+            .evaluate(R::number, |input, angles| {
+                read::<R>(input, angles, q.as_slice(), others)
+            })
+            .into_iter()
+            .map(R::to_f64);
         let lengths = program.outputs.iter().map(|output| output.elements.len());
         lengths
             .map(|length| all.by_ref().take(length).collect())
@@ -66,7 +62,7 @@ impl<const N: usize> Interpreter<N> {
 
     fn at(&self, q: &SVector<f64, N>) -> Arguments<N> {
         Arguments {
-            q: unrolled::coordinates(&self.chain, &q.data.0[0]).into(),
+            q: R::coordinates(&self.chain, q),
             qd: SVector::zeros(),
             qdd: SVector::zeros(),
             tau: SVector::zeros(),
@@ -80,21 +76,23 @@ fn matrices<const R: usize, const C: usize, const K: usize>(
     std::array::from_fn(|k| SMatrix::from_column_slice(&elements[k * R * C..(k + 1) * R * C]))
 }
 
-/// Whether w_D counts as 0, from the output `margins`.
-fn is_singular(margins: &[f64]) -> bool {
-    unrolled::is_singular(&[0, 6].map(|start| std::array::from_fn(|i| margins[start + i])))
-}
+impl<const N: usize, R: Scalar> Interpreter<N, R> {
+    /// w_D and ∇w_D, from the outputs `value`, `gradient` and `volume`.
+    fn settled(&self, q: &SVector<f64, N>, outputs: &[Vec<f64>]) -> (f64, SVector<f64, N>) {
+        if self.is_singular(q, &outputs[2]) {
+            (0.0, SVector::zeros())
+        } else {
+            (outputs[0][0], SVector::from_column_slice(&outputs[1]))
+        }
+    }
 
-/// w_D and ∇w_D, from the outputs `value`, `gradient` and `margins`.
-fn settled<const N: usize>(outputs: &[Vec<f64>]) -> (f64, SVector<f64, N>) {
-    if is_singular(&outputs[2]) {
-        (0.0, SVector::zeros())
-    } else {
-        (outputs[0][0], SVector::from_column_slice(&outputs[1]))
+    fn is_singular(&self, q: &SVector<f64, N>, volume: &[f64]) -> bool {
+        let q = unrolled::coordinates(&self.chain, &q.data.0[0]);
+        self.chain.is_singular(&q, volume[0])
     }
 }
 
-impl<const N: usize> Arm<N> for Interpreter<N> {
+impl<const N: usize, R: Scalar> Arm<N> for Interpreter<N, R> {
     fn task(&self) -> TaskRows {
         self.chain.task
     }
@@ -129,7 +127,7 @@ impl<const N: usize> Arm<N> for Interpreter<N> {
 
     fn dynamic_manipulability(&self, q: &SVector<f64, N>) -> f64 {
         let outputs = self.run("dynamic_manipulability", &self.at(q));
-        if is_singular(&outputs[1]) {
+        if self.is_singular(q, &outputs[1]) {
             0.0
         } else {
             outputs[0][0]
@@ -137,7 +135,7 @@ impl<const N: usize> Arm<N> for Interpreter<N> {
     }
 
     fn dynamic_manipulability_gradient(&self, q: &SVector<f64, N>) -> (f64, SVector<f64, N>) {
-        settled(&self.run("dynamic_manipulability_gradient", &self.at(q)))
+        self.settled(q, &self.run("dynamic_manipulability_gradient", &self.at(q)))
     }
 
     fn inverse_dynamics(
@@ -198,7 +196,7 @@ impl<const N: usize> Arm<N> for Interpreter<N> {
         q: &SVector<f64, N>,
     ) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
         let outputs = self.run("jacobian_and_gradient", &self.at(q));
-        let (w, gradient) = settled(&outputs[1..]);
+        let (w, gradient) = self.settled(q, &outputs[1..]);
         (SMatrix::from_column_slice(&outputs[0]), w, gradient)
     }
 }

@@ -6,13 +6,16 @@
 //! |---|---|---|
 //! | [`formulate`] | [`ulna::Model`] | named outputs on a [`graph`], differentiated there ([`differentiate`]) |
 //! | [`schedule`] | outputs on a graph | a straight-line [`Program`] |
+//! | [`accuracy`] | programs | their rounding errors, of which the choice of formulas depends |
 //! | [`emit`] | programs | Rust |
 //!
 //! A build script calls [`compile_arms`]; the macro and the command line call [`generate`].
 
+pub mod accuracy;
 pub mod build;
 pub mod cost;
 pub mod differentiate;
+pub mod double_double;
 pub mod emit;
 mod fold;
 pub mod formulate;
@@ -29,9 +32,13 @@ pub use emit::Generated;
 pub use interpret::Interpreter;
 pub use schedule::Program;
 
+use accuracy::Yardstick;
 use formulate::chain::Chain;
-use formulate::{Frames, QUANTITIES, Quantity};
+use formulate::{Choices, QUANTITIES, Quantity};
 use graph::Graph;
+
+/// The largest relative error that a program may have to be chosen for its few operations.
+const EXACT: f64 = 1e-10;
 
 /// A method of [`ulna::Arm`] as a program.
 #[derive(Debug)]
@@ -44,53 +51,107 @@ pub struct Method {
     pub arguments: &'static [&'static str],
     /// What it computes.
     pub program: Program,
+    /// The largest relative error to be expected of it: see [`accuracy`].
+    pub error: f64,
+}
+
+/// An arm's methods as programs.
+#[derive(Debug)]
+pub struct Compiled {
+    /// Every method of [`ulna::Arm`] that needs arithmetic.
+    pub methods: Vec<Method>,
+    /// At how many states, random ones and near-singular ones, their errors were measured.
+    pub states: [usize; 2],
+    /// What the user should know of the arm.
+    pub warnings: Vec<String>,
 }
 
 /// The whole way from a model to Rust. `source` is the table's path.
 ///
 /// Its last part stands in the header, and no more of it: the same table gives the same bytes, wherever it is read from.
 pub fn generate(model: &Model, source: &str) -> Generated {
-    let methods = compile(model);
     let file_name = source.rsplit(std::path::is_separator).next();
-    Generated::new(model, file_name.unwrap_or(source), &methods)
+    Generated::new(model, file_name.unwrap_or(source), compile(model))
 }
 
 /// Every method of [`ulna::Arm`] that needs arithmetic, as a program.
-pub fn compile(model: &Model) -> Vec<Method> {
-    let frames = cheapest_frames(model);
-    let method = |quantity: &Quantity| Method {
-        name: quantity.method,
-        doc: quantity.doc,
-        arguments: quantity.arguments,
-        program: compile_quantity(model, quantity, frames),
+pub fn compile(model: &Model) -> Compiled {
+    let yardstick = Yardstick::new(model);
+    let choices = choose(model, &yardstick);
+    let method = |quantity: &Quantity| {
+        let program = compile_quantity(model, quantity, choices);
+        Method {
+            name: quantity.method,
+            doc: quantity.doc,
+            arguments: quantity.arguments,
+            error: yardstick.error(&program),
+            program,
+        }
     };
-    QUANTITIES.iter().map(method).collect()
+    Compiled {
+        methods: QUANTITIES.iter().map(method).collect(),
+        states: [yardstick.random(), yardstick.near_singular],
+        warnings: warnings_of(&yardstick),
+    }
 }
 
-fn compile_quantity(model: &Model, quantity: &Quantity, frames: Frames) -> Program {
+/// What the user should know of an arm before there is code for it; a sentence each.
+pub fn warnings(model: &Model) -> Vec<String> {
+    warnings_of(&Yardstick::new(model))
+}
+
+fn warnings_of(yardstick: &Yardstick) -> Vec<String> {
+    let singular = "w_D is 0 in every configuration: the task's rows of J depend on each other; \
+                    leave out of [task] rows what the arm cannot move";
+    let found = yardstick.singular_everywhere.then(|| singular.to_owned());
+    found.into_iter().collect()
+}
+
+fn compile_quantity(model: &Model, quantity: &Quantity, choices: Choices) -> Program {
     let graph = Graph::new();
     let chain = Chain::new(&graph, model);
-    schedule::schedule(&graph, &(quantity.formulate)(&chain, frames))
+    schedule::schedule(&graph, &(quantity.formulate)(&chain, choices))
 }
 
-/// Tries the Jacobian in every frame, and keeps the cheapest for J itself and for w_D.
-fn cheapest_frames(model: &Model) -> Frames {
+/// Tries the Jacobian in every frame, for J itself and for w_D.
+fn choose(model: &Model, yardstick: &Yardstick) -> Choices {
+    let none = Choices {
+        singular: yardstick.singular_everywhere,
+        ..Choices::default()
+    };
     let groups = Chain::new(&Graph::new(), model).groups.len();
-    let cost = |method: &str, frames: Frames| {
+    let best = |method: &str, choices: &dyn Fn(usize) -> Choices| {
         let quantity = QUANTITIES.iter().find(|quantity| quantity.method == method);
-        quantity.map(|quantity| compile_quantity(model, quantity, frames).steps.len())
+        let all = (0..=groups).map(choices);
+        let program = |choices: Choices| Some(compile_quantity(model, quantity?, choices));
+        let candidates = all.filter_map(|choices| Some((choices, program(choices)?)));
+        cheapest_that_is_exact(candidates.collect(), yardstick).unwrap_or(none)
     };
-    let cheapest = |method: &str, frames: fn(usize) -> Frames| {
-        let groups = 0..=groups;
-        groups
-            .min_by_key(|group| cost(method, frames(*group)))
-            .unwrap_or(0)
-    };
-    Frames {
-        world: cheapest("geometric_jacobian", |world| Frames { world, task: 0 }),
-        task: cheapest("dynamic_manipulability_gradient", |task| Frames {
-            world: task,
-            task,
-        }),
+    let world = best("geometric_jacobian", &|world| Choices { world, ..none }).world;
+    let task = best("dynamic_manipulability_gradient", &|task| Choices {
+        world: task,
+        task,
+        ..none
+    });
+    Choices { world, ..task }
+}
+
+/// The choices of the shortest program among those whose error is small enough; of the most exact one, if none is.
+fn cheapest_that_is_exact(
+    mut candidates: Vec<(Choices, Program)>,
+    yardstick: &Yardstick,
+) -> Option<Choices> {
+    // A stable sort: of programs of one length the first is kept.
+    candidates.sort_by_key(|(_, program)| program.steps.len());
+    let mut most_exact: Option<(f64, Choices)> = None;
+    for (choices, program) in &candidates {
+        let error = yardstick.error(program);
+        if error <= EXACT {
+            return Some(*choices);
+        }
+        if most_exact.is_none_or(|(least, _)| error < least) {
+            most_exact = Some((error, *choices));
+        }
     }
+    most_exact.map(|(_, choices)| choices)
 }

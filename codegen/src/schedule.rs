@@ -4,7 +4,10 @@
 
 use std::collections::HashMap;
 
+use ulna::Real;
+
 use crate::differentiate::reachable;
+use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Id, Input, Node};
 use crate::op::Op;
 
@@ -23,7 +26,7 @@ pub struct Output<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operand {
     /// A number.
-    Constant(f64),
+    Constant(DoubleDouble),
     /// An argument of the function; angles are counted within the program.
     Input(Input),
     /// The result of an earlier step.
@@ -68,7 +71,7 @@ pub fn schedule(graph: &Graph, outputs: &[Output<Expr<'_>>]) -> Program {
     let mut operands: HashMap<Id, Operand> = HashMap::with_capacity(needed.len());
     for id in needed {
         let operand = match graph.node(id) {
-            Node::Constant(bits) => Operand::Constant(f64::from_bits(bits)),
+            Node::Constant(bits) => Operand::Constant(DoubleDouble::from_bits(bits)),
             Node::Input(input) => Operand::Input(renumbered(input, &angles)),
             Node::Apply(op, a, b) => {
                 let (a, b) = (operands[&a], operands[&b]);
@@ -118,16 +121,22 @@ fn renumbered(input: Input, angles: &[usize]) -> Input {
 }
 
 impl Program {
-    /// All results in order, for the given arguments: what the generated code computes, evaluated here.
-    pub fn evaluate(&self, input: impl Fn(Input, &[AngleSum]) -> f64) -> Vec<f64> {
+    /// All results in order, on the scalars `R`: `number` makes one of a constant, `input` of an argument.
+    pub fn evaluate<R: Real>(
+        &self,
+        number: impl Fn(DoubleDouble) -> R,
+        input: impl Fn(Input, &[AngleSum]) -> R,
+    ) -> Vec<R> {
         let mut values = Vec::with_capacity(self.steps.len());
-        let value = |operand: Operand, values: &[f64]| match operand {
-            Operand::Constant(value) => value,
+        let value = |operand: Operand, values: &[R]| match operand {
+            Operand::Constant(value) => number(value),
             Operand::Input(argument) => input(argument, &self.angles),
             Operand::Step(step) => values[step],
         };
         for step in &self.steps {
-            let result = (step.op.row().value)(value(step.a, &values), value(step.b, &values));
+            let result = step
+                .op
+                .apply(value(step.a, &values), value(step.b, &values));
             values.push(result);
         }
         let elements = self.outputs.iter().flat_map(|output| &output.elements);

@@ -41,7 +41,7 @@ fn operations_of_every_arm() {
     for path in arms() {
         let model = Model::load(&path).unwrap_or_else(|errors| panic!("{errors}"));
         writeln!(table, "{}", model.name).unwrap();
-        for method in compile(&model) {
+        for method in compile(&model).methods {
             let Counts { total, sin_cos, .. } = Counts::of(&method.program);
             writeln!(table, "  {:32}{total:6}{sin_cos:4}", method.name).unwrap();
         }
@@ -59,7 +59,7 @@ fn the_ssrms_needs_few_operations() {
     assert!(total("mass_matrix") <= 280);
     assert!(total("mass_matrix_derivatives") <= 850);
     assert!(total("mass_matrix_and_derivatives") <= 1_000);
-    assert!(total("dynamic_manipulability_gradient") <= 1_800);
+    assert!(total("dynamic_manipulability_gradient") <= 1_940);
     assert!(total("geometric_jacobian") <= 130);
 }
 

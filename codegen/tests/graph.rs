@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 use ulna_codegen::Program;
 use ulna_codegen::differentiate::reverse;
+use ulna_codegen::double_double::DoubleDouble;
 use ulna_codegen::graph::{AngleSum, Expr, Graph, Input};
 use ulna_codegen::op::Op;
 use ulna_codegen::schedule::{Operand, Output, schedule};
@@ -27,7 +28,7 @@ enum Tree {
 /// The joints that each angle of the tests adds up.
 fn angle(index: usize) -> AngleSum {
     let joints = [vec![0], vec![1], vec![1, 2]][index].clone();
-    let offset = [0.0, 0.3, 0.0][index];
+    let offset = [0.0, 0.3, 0.0][index].into();
     AngleSum { joints, offset }
 }
 
@@ -54,10 +55,7 @@ fn tree() -> impl Strategy<Value = Tree> {
 }
 
 fn read(input: Input, angle: impl Fn(usize) -> AngleSum, q: &[f64; JOINTS]) -> f64 {
-    let value = |index| {
-        let AngleSum { joints, offset } = angle(index);
-        joints.iter().map(|i| q[*i]).sum::<f64>() + offset
-    };
+    let value = |index| angle(index).at(|i| q[i], DoubleDouble::to_f64);
     match input {
         Input::Q(i) => q[i],
         Input::Sin(index) => value(index).sin(),
@@ -115,7 +113,9 @@ fn program<'g>(graph: &'g Graph, elements: Vec<Expr<'g>>) -> Program {
 }
 
 fn evaluate(program: &Program, q: &[f64; JOINTS]) -> Vec<f64> {
-    program.evaluate(|input, angles| read(input, |index| angles[index].clone(), q))
+    program.evaluate(DoubleDouble::to_f64, |input, angles| {
+        read(input, |index| angles[index].clone(), q)
+    })
 }
 
 /// Relative to the sizes that rounding acts on.
@@ -243,6 +243,6 @@ fn every_operator_builds_what_its_row_computes() {
         };
         let program = program(&graph, vec![built]);
         let value = evaluate(&program, &[1.5, 0.5, 0.0])[0];
-        assert_eq!(value, (op.row().value)(1.5, 0.5), "{}", op.row().name);
+        assert_eq!(value, op.apply(1.5, 0.5), "{}", op.row().name);
     }
 }

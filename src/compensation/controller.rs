@@ -22,7 +22,7 @@ pub struct Cycle<const N: usize> {
     pub force_error: Vector6<f64>,
     /// −g of Eq. 14, taken on both sides: `τ_rated − |τ|`, N·m (N).
     pub margins: SVector<f64, N>,
-    /// [`NullSpace::conditioning`](crate::null_space::NullSpace::conditioning) of the moving joints' J, 0 to 1.
+    /// [`TaskPose::conditioning`]: how independent the rows of the moving joints' J are, 0 to 1.
     pub conditioning: f64,
     /// How it went.
     pub status: Status,
@@ -79,7 +79,7 @@ impl<'a, A: Arm<N>, const N: usize> Controller<'a, A, N> {
         let pose = TaskPose::new(self.arm, &state.q, locked, self.projector);
         let planned = self.arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
             + pose.jacobian.tr_mul(wrench);
-        let conditioning = pose.null_space.conditioning();
+        let conditioning = pose.conditioning;
         let limits = Limits {
             rated_torque: self.rated_torque,
             locked,

@@ -27,6 +27,8 @@ pub struct TaskPose<const N: usize> {
     pub gradient: SVector<f64, N>,
     /// The moving joints' J, taken apart.
     pub null_space: NullSpace<N>,
+    /// [`NullSpace::conditioning`], or 0 where w_D counts as 0 ([`crate::singular`]).
+    pub conditioning: f64,
     task: TaskRows,
     locked: LockedJoints<N>,
     projector: Projector,
@@ -44,11 +46,17 @@ impl<const N: usize> TaskPose<N> {
         locked: LockedJoints<N>,
         projector: Projector,
     ) -> Self {
-        let (jacobian, _, gradient) = arm.jacobian_and_gradient(q);
+        let (jacobian, manipulability, gradient) = arm.jacobian_and_gradient(q);
         let task = arm.task();
         let reduced = locked.reduce_jacobian(&jacobian);
         let null_space = NullSpace::new(&reduced, task);
-        let distance = (null_space.conditioning() - SINGULAR) / (NEAR_SINGULAR - SINGULAR);
+        // Where w_D counts as 0 there is no gradient, whatever rounding leaves of the rows' independence.
+        let conditioning = if manipulability == 0.0 {
+            0.0
+        } else {
+            null_space.conditioning()
+        };
+        let distance = (conditioning - SINGULAR) / (NEAR_SINGULAR - SINGULAR);
         let whitening = match projector {
             Projector::Static => None,
             Projector::DynamicallyConsistent => {
@@ -60,6 +68,7 @@ impl<const N: usize> TaskPose<N> {
             jacobian,
             gradient: locked.without(&gradient),
             null_space,
+            conditioning,
             task,
             locked,
             projector,

@@ -47,7 +47,7 @@ impl<const N: usize> SerialChain<N> {
                 eighth * 2.0 + quarter * (1.0 - SQRT_2)
             }
             JointInput::Offset(q) => {
-                let step = self.length(inputs);
+                let step = self.length(&Self::offsets(inputs));
                 let (ahead, behind) = (q + step, q - step);
                 (at(i, JointInput::Offset(ahead)) - at(i, JointInput::Offset(behind)))
                     / (ahead - behind)

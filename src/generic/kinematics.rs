@@ -80,6 +80,14 @@ impl<const N: usize> SerialChain<N> {
         })
     }
 
+    /// The offsets of prismatic joints; 0 for revolute ones.
+    pub(super) fn offsets(inputs: &[JointInput; N]) -> [f64; N] {
+        inputs.map(|input| match input {
+            JointInput::Angle { .. } => 0.0,
+            JointInput::Offset(q) => q,
+        })
+    }
+
     /// `T_1 … T_N`.
     pub(super) fn transforms(&self, inputs: &[JointInput; N]) -> [IsometryMatrix3<f64>; N] {
         core::array::from_fn(|i| self.joints[i].transform(inputs[i]))
@@ -136,19 +144,5 @@ impl<const N: usize> SerialChain<N> {
         };
         let arm = last.rotation * Vector3::from(self.tool.translation);
         self.jacobian(&frames, N - 1, arm)
-    }
-
-    /// An upper bound of the distance between any two origins of the chain, m; 1 if they all coincide.
-    /// It sets the scale for a prismatic step and for what of J counts as rounding.
-    pub(super) fn length(&self, inputs: &[JointInput; N]) -> f64 {
-        let links: f64 = self
-            .transforms(inputs)
-            .iter()
-            .map(|transform| transform.translation.vector.norm())
-            .sum();
-        match links + Vector3::from(self.tool.translation).norm() {
-            0.0 => 1.0,
-            length => length,
-        }
     }
 }

@@ -6,7 +6,7 @@ use super::SerialChain;
 use super::kinematics::JointInput;
 use super::mass_matrix::factor;
 use super::orthogonal::ThinQr;
-use crate::{JointKind, TaskRows};
+use crate::TaskRows;
 
 impl<const N: usize> SerialChain<N> {
     /// `w_D = √det(H Hᵀ)`, `H = J M⁻¹` over the task's rows (Eq. 15), as the product of H's singular values.
@@ -14,7 +14,7 @@ impl<const N: usize> SerialChain<N> {
     /// The determinant of `H Hᵀ` would square H's condition number and lose twice the digits near a singular pose.
     pub(super) fn manipulability(&self, inputs: &[JointInput; N]) -> f64 {
         let jacobian = self.tool_jacobian(inputs);
-        if self.is_singular(inputs, &jacobian) {
+        if self.counts_as_singular(inputs, &jacobian) {
             return 0.0;
         }
         let mass_matrix = factor(self.mass_matrix_at(inputs));
@@ -32,7 +32,7 @@ impl<const N: usize> SerialChain<N> {
         inputs: &[JointInput; N],
     ) -> (f64, SVector<f64, N>) {
         let jacobian = self.tool_jacobian(inputs);
-        if self.is_singular(inputs, &jacobian) {
+        if self.counts_as_singular(inputs, &jacobian) {
             return (0.0, SVector::zeros());
         }
         let mass_matrix = factor(self.mass_matrix_at(inputs));
@@ -51,30 +51,16 @@ impl<const N: usize> SerialChain<N> {
         (w, gradient)
     }
 
-    /// Whether the task's rows of J are linearly dependent to rounding: where w_D counts as 0.
-    ///
-    /// M⁻¹ has full rank, so H is singular where J is, and J's rounding is known: a few units for each transform of the chain,
-    /// relative to 1 for a direction and to the chain's length for an arm. J is therefore made
-    /// dimensionless by that length L (rows of v divided by L, prismatic columns multiplied by L: the rank stays),
-    /// and is singular if the last of its heights ([`ThinQr::heights`]) is at most `16 N ε`, `ε` = 2.2e-16.
-    fn is_singular(&self, inputs: &[JointInput; N], jacobian: &SMatrix<f64, 6, N>) -> bool {
-        let length = self.length(inputs);
-        let dimensionless = SMatrix::<f64, 6, N>::from_fn(|row, joint| {
-            let entry = jacobian[(row, joint)];
-            match self.joints[joint].kind {
-                JointKind::Revolute if row < 3 => entry / length,
-                _ => entry,
-            }
-        });
-        let rounding = 16.0 * N as f64 * f64::EPSILON;
-        ThinQr::new(task_columns(self.task, &dimensionless), self.task.len())
-            .heights()
-            .any(|height| height <= rounding)
+    /// Whether w_D counts as 0: [`crate::singular`].
+    fn counts_as_singular(&self, inputs: &[JointInput; N], jacobian: &SMatrix<f64, 6, N>) -> bool {
+        let rows = task_columns(self.task, jacobian);
+        let volume: f64 = ThinQr::new(rows, self.task.len()).heights().product();
+        !volume.is_nan() && self.is_singular(&Self::offsets(inputs), volume * volume)
     }
 }
 
 /// The task's rows of J as the first columns; the others are 0.
-fn task_columns<const N: usize>(
+pub(crate) fn task_columns<const N: usize>(
     task: TaskRows,
     jacobian: &SMatrix<f64, 6, N>,
 ) -> SMatrix<f64, N, 6> {

@@ -26,15 +26,12 @@ impl<const N: usize> SerialChain<N> {
     }
 }
 
-/// Cholesky's factor of a mass matrix, for any finite one.
+/// Cholesky's factor of a mass matrix; of one that is NaN, a factor that is.
 ///
-/// M is positive definite, but where a prismatic joint is so far out that rounding swallows the rest of the arm
-/// its rounded entries may not be. A pivot that is not positive is then replaced by the rounding of
-/// the largest diagonal entry, which keeps the answer finite.
+/// M is positive definite, and its rounded entries are: tables are refused in which a link is so light beside what it carries
+/// that they might not be ([`crate::bounds::LEAST_SHARE`]).
 /// Cholesky needs no scaling although M's diagonal spans orders of magnitude: its error in entry (i, j)
 /// is a few units of rounding of `√(M_ii M_jj)`.
-pub(super) fn factor<const N: usize>(mass_matrix: SMatrix<f64, N, N>) -> Cholesky<f64, Const<N>> {
-    let rounding = f64::EPSILON * mass_matrix.diagonal().amax();
-    Cholesky::new_with_substitute(mass_matrix, rounding)
-        .unwrap_or_else(|| Cholesky::new_unchecked(mass_matrix))
+pub(crate) fn factor<const N: usize>(mass_matrix: SMatrix<f64, N, N>) -> Cholesky<f64, Const<N>> {
+    Cholesky::new(mass_matrix).unwrap_or_else(|| Cholesky::new_unchecked(mass_matrix))
 }

@@ -17,15 +17,18 @@ use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 
 use crate::{Arm, Joint, Placement, TaskRows};
 
+pub(crate) use manipulability::task_columns;
+pub(crate) use mass_matrix::factor;
 pub use newton_euler::JointLoad;
+pub(crate) use orthogonal::ThinQr;
 
 /// A serial chain of `N` joints, evaluated by textbook formulas.
 ///
 /// All of it is plain data, so that generated code can carry its own chain as a constant. No method allocates.
 ///
 /// For finite q no method returns NaN: angles of any size enter by their sines and cosines only, offsets are held within
-/// ±[`PRISMATIC_LIMIT`](crate::real::PRISMATIC_LIMIT). w_D and its gradient are exactly 0 where the task's rows of J,
-/// made dimensionless by the chain's length, are linearly dependent to within `16 N` units of rounding.
+/// ±[`PRISMATIC_LIMIT`](crate::real::PRISMATIC_LIMIT). w_D and its gradient are exactly 0 where the task's rows of J
+/// span no volume but rounding ([`crate::singular`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SerialChain<const N: usize> {
     /// The joints, base first.

@@ -7,7 +7,7 @@ use nalgebra::{Matrix6, SMatrix, SVector};
 /// to rounding however ill-conditioned A is (Parlett, *The Symmetric Eigenvalue Problem*, 6.9).
 ///
 /// The diagonal's product is that of A's singular values: the volume of the box that the columns span.
-pub(super) struct ThinQr<const N: usize> {
+pub(crate) struct ThinQr<const N: usize> {
     q: SMatrix<f64, N, 6>,
     r: Matrix6<f64>,
     /// `order[k]`: which column of A is the k-th of A Π.
@@ -17,7 +17,7 @@ pub(super) struct ThinQr<const N: usize> {
 
 impl<const N: usize> ThinQr<N> {
     /// Factors the first `count` columns.
-    pub(super) fn new(mut columns: SMatrix<f64, N, 6>, count: usize) -> Self {
+    pub(crate) fn new(mut columns: SMatrix<f64, N, 6>, count: usize) -> Self {
         let mut r = Matrix6::zeros();
         let mut order = core::array::from_fn(|k| k);
         for k in 0..count {
@@ -55,13 +55,13 @@ impl<const N: usize> ThinQr<N> {
     }
 
     /// R's diagonal, falling: how far each column stands out of the span of those before it.
-    pub(super) fn heights(&self) -> impl Iterator<Item = f64> {
+    pub(crate) fn heights(&self) -> impl Iterator<Item = f64> {
         (0..self.count).map(|k| self.r[(k, k)])
     }
 
     /// The columns dual to A's: `A†ᵀ = Q R⁻ᵀ Πᵀ`, if no height is 0. Column c is orthogonal to every column of A but
     /// column c, with which its product is 1.
-    pub(super) fn duals(&self) -> SMatrix<f64, N, 6> {
+    pub(crate) fn duals(&self) -> SMatrix<f64, N, 6> {
         let mut duals = SMatrix::<f64, N, 6>::zeros();
         for k in (0..self.count).rev() {
             let mut dual: SVector<f64, N> = self.q.column(k).clone_owned();

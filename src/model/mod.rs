@@ -8,6 +8,8 @@ mod angle;
 #[cfg(feature = "table")]
 mod convention;
 #[cfg(feature = "table")]
+mod light;
+#[cfg(feature = "table")]
 mod name;
 mod task;
 #[cfg(feature = "table")]
@@ -147,8 +149,19 @@ impl Model {
     /// # Errors
     /// Everything that is wrong with the file, at once.
     pub fn load_in(folder: impl AsRef<Path>, path: impl AsRef<Path>) -> Result<Self, TableErrors> {
+        Self::lint_in(folder, path).map(|(model, _)| model)
+    }
+
+    /// [`Model::load_in`], together with warnings of what is allowed but rarely meant.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, at once.
+    pub fn lint_in(
+        folder: impl AsRef<Path>,
+        path: impl AsRef<Path>,
+    ) -> Result<(Self, Diagnostics), TableErrors> {
         let text = read_file(folder.as_ref(), path.as_ref(), Self::MAX_BYTES)?;
-        Self::parse(&text, &path.as_ref().display().to_string())
+        Self::lint_text(&text, &path.as_ref().display().to_string())
     }
 
     /// [`Model::load`], together with warnings of what is allowed but rarely meant.
@@ -156,9 +169,7 @@ impl Model {
     /// # Errors
     /// Everything that is wrong with the file, at once.
     pub fn lint(path: impl AsRef<Path>) -> Result<(Self, Diagnostics), TableErrors> {
-        let path = path.as_ref();
-        let text = read_file(Path::new(""), path, Self::MAX_BYTES)?;
-        Self::lint_text(&text, &path.display().to_string())
+        Self::lint_in("", path)
     }
 
     fn lint_text(text: &str, source_name: &str) -> Result<(Self, Diagnostics), TableErrors> {

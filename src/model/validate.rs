@@ -5,6 +5,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use nalgebra::Matrix3;
 
 use super::convention::{rows, standard_to_modified};
+use super::light::{light_links, weight_of};
 use super::{Angle, Joint, Link, Model, Placement, TaskRow, TaskRows, name};
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::table::{
@@ -80,6 +81,7 @@ impl ArmTable {
         };
         let base = place(self.base, &BASE_LENGTH);
         let tool = place(self.tool, &LENGTH);
+        let weights: Vec<_> = self.joints.iter().flatten().map(weight_of).collect();
         let joints: Option<Vec<_>> = self.joints.map(|rows| {
             rows.iter()
                 .map(|row| joint(row, self.angle_unit, sink))
@@ -90,6 +92,11 @@ impl ArmTable {
         let mut tool = tool?;
         if self.convention? == Convention::Standard {
             standard_to_modified(&mut joints, &mut tool);
+        }
+        let light = light_links(&joints, weights);
+        if !light.is_empty() {
+            light.into_iter().for_each(|error| sink.push(error));
+            return None;
         }
         Some(Model {
             name: name?,

@@ -2,96 +2,107 @@
 
 use nalgebra::SVector;
 
-use super::{Deviation, State};
-use crate::Arm;
+use super::scale::Scale;
+use super::{Deviation, State, relative, rounding, worse};
+use crate::{Arm, SerialChain};
 
-/// Step, rad (m): the truncation of the difference and the rounding of what it is taken of are about alike.
+/// Step, in rad or in lengths of the chain: the truncation of the difference and the rounding of what it is taken of are about alike.
 const STEP: f64 = 1e-5;
-/// Distance of a singular configuration, rad (m), within which ∇w_D is not compared.
-const KINK: f64 = 1e3 * STEP;
+/// What the step leaves of a smooth function's difference.
+const TRUNCATION: f64 = 1e-8;
+/// Distance of a singular pose, in steps, within which ∇w_D is not compared: w_D has a kink there, which a difference averages over.
+const KINK: f64 = 1e3;
 
-/// The largest relative errors of ∂J/∂q_i, ∂M/∂q_i and ∇w_D at `states`.
-///
-/// What the differences themselves leave is within the tolerances: 1e-9 or so, and more for w_D, whose rounding grows with
-/// the condition of M.
+/// The errors of ∂J/∂q_i, ∂M/∂q_i and ∇w_D at `states`, each at the state where it comes nearest to what is allowed:
+/// 1e-8, and what the differences themselves are unsure of. That is the rounding of what they are taken of,
+/// over the step, and twice what they change by when the step is doubled. Beside a singular pose ∇w_D is left out.
 pub fn compare<const N: usize>(
     arm: &impl Arm<N>,
+    chain: &SerialChain<N>,
     states: impl Iterator<Item = State<N>>,
 ) -> [Deviation; 3] {
     let mut deviations = [
-        ("jacobian_derivatives", 1e-8),
-        ("mass_matrix_derivatives", 1e-8),
-        ("dynamic_manipulability_gradient", 1e-5),
+        "jacobian_derivatives",
+        "mass_matrix_derivatives",
+        "dynamic_manipulability_gradient",
     ]
-    .map(|(method, tolerance)| Deviation {
-        method,
-        error: 0.0,
-        tolerance,
-    });
+    .map(Deviation::new);
     for State { q, .. } in states {
-        for (deviation, error) in deviations.iter_mut().zip(errors(arm, &q)) {
-            // NaN is never greater, and must not be lost.
-            if error > deviation.error || error.is_nan() {
-                deviation.error = error;
-            }
+        for (deviation, (error, tolerance)) in deviations.iter_mut().zip(errors(arm, chain, &q)) {
+            deviation.add(error, tolerance);
         }
     }
     deviations
 }
 
-fn errors<const N: usize>(arm: &impl Arm<N>, q: &SVector<f64, N>) -> [f64; 3] {
-    let (mut jacobian, mut mass, mut gradient) =
-        (Error::default(), Error::default(), Error::default());
+fn errors<const N: usize>(
+    arm: &impl Arm<N>,
+    chain: &SerialChain<N>,
+    q: &SVector<f64, N>,
+) -> [(f64, f64); 3] {
+    let scale = Scale::new(arm, chain, q);
     let jacobian_derivatives = arm.jacobian_derivatives(q);
     let mass_derivatives = arm.mass_matrix_derivatives(q);
-    let (manipulability, manipulability_gradient) = arm.dynamic_manipulability_gradient(q);
-    // A derivative that vanishes has the rounding of what it is taken of all the same.
-    jacobian.scale = arm.geometric_jacobian(q).amax();
-    mass.scale = arm.mass_matrix(q).amax();
-    gradient.scale = manipulability;
-    // Closer than this to a singular configuration w_D has a kink, which a difference would average over.
-    let smooth = manipulability > KINK * manipulability_gradient.norm();
+    let (manipulability, gradient) = arm.dynamic_manipulability_gradient(q);
+    let size = gradient.amax().max(manipulability);
+    let steepest = (0..N).fold(0.0, |steepest, i| {
+        worse(steepest, (gradient[i] * scale.unit(chain, i)).abs())
+    });
+    let smooth = manipulability > KINK * STEP * steepest;
+    let (mut jacobian, mut mass, mut slope) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     for i in 0..N {
-        let (mut ahead, mut behind) = (*q, *q);
-        ahead[i] += STEP;
-        behind[i] -= STEP;
-        let width = ahead[i] - behind[i];
-        let difference = (arm.geometric_jacobian(&ahead) - arm.geometric_jacobian(&behind)) / width;
-        jacobian.add(jacobian_derivatives[i].as_slice(), difference.as_slice());
-        let difference = (arm.mass_matrix(&ahead) - arm.mass_matrix(&behind)) / width;
-        mass.add(mass_derivatives[i].as_slice(), difference.as_slice());
+        let unit = scale.unit(chain, i);
+        let sizes = &scale.inertia_ahead;
+        let at = |steps: f64| {
+            let mut shifted = *q;
+            shifted[i] += steps * STEP * unit;
+            shifted
+        };
+        let [ahead, behind, far_ahead, far_behind] = [1.0, -1.0, 2.0, -2.0].map(at);
+        let width = (ahead[i] - behind[i]) / unit;
+        let far_width = (far_ahead[i] - far_behind[i]) / unit;
+
+        let near = (arm.geometric_jacobian(&ahead) - arm.geometric_jacobian(&behind)) / width;
+        let far =
+            (arm.geometric_jacobian(&far_ahead) - arm.geometric_jacobian(&far_behind)) / far_width;
+        add(
+            &mut jacobian,
+            scale.twists(&(jacobian_derivatives[i] * unit - near)),
+            scale.twists(&(far - near)),
+        );
+        let near = (arm.mass_matrix(&ahead) - arm.mass_matrix(&behind)) / width;
+        let far = (arm.mass_matrix(&far_ahead) - arm.mass_matrix(&far_behind)) / far_width;
+        add(
+            &mut mass,
+            Scale::masses(sizes, &(mass_derivatives[i] * unit - near)),
+            Scale::masses(sizes, &(far - near)),
+        );
         if smooth {
-            let difference =
-                arm.dynamic_manipulability(&ahead) - arm.dynamic_manipulability(&behind);
-            gradient.add(&[manipulability_gradient[i]], &[difference / width]);
+            let [ahead, behind, far_ahead, far_behind] =
+                [ahead, behind, far_ahead, far_behind].map(|q| arm.dynamic_manipulability(&q));
+            let (near, far) = (
+                (ahead - behind) / width,
+                (far_ahead - far_behind) / far_width,
+            );
+            add(
+                &mut slope,
+                relative(gradient[i] * unit - near, size),
+                relative(far - near, size),
+            );
         }
     }
-    [jacobian, mass, gradient].map(Error::relative)
+    let rounded = rounding(N) / STEP;
+    let allowed =
+        |[error, unsure]: [f64; 2], rounded: f64| (error, TRUNCATION + 2.0 * unsure + rounded);
+    [
+        allowed(jacobian, rounded),
+        allowed(mass, rounded),
+        allowed(slope, rounded * scale.condition),
+    ]
 }
 
-/// The largest difference of two entries, and the largest entry.
-#[derive(Default)]
-struct Error {
-    difference: f64,
-    scale: f64,
-}
-
-impl Error {
-    fn add(&mut self, values: &[f64], references: &[f64]) {
-        for (value, reference) in values.iter().zip(references) {
-            let difference = (value - reference).abs();
-            if difference > self.difference || difference.is_nan() {
-                self.difference = difference;
-            }
-            self.scale = self.scale.max(reference.abs());
-        }
-    }
-
-    fn relative(self) -> f64 {
-        if self.scale == 0.0 {
-            self.difference
-        } else {
-            self.difference / self.scale
-        }
-    }
+/// Keeps the larger error, and the larger change with the step.
+fn add(largest: &mut [f64; 2], error: f64, change: f64) {
+    largest[0] = worse(largest[0], error);
+    largest[1] = worse(largest[1], change);
 }

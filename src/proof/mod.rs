@@ -4,11 +4,14 @@
 //! the textbook formulas of [`SerialChain`] do.
 
 pub mod differences;
+mod scale;
 
 use core::f64::consts::PI;
 use core::fmt;
 
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
+
+use scale::Scale;
 
 use crate::random::SplitMix64;
 use crate::{Arm, JointKind, SerialChain};
@@ -47,25 +50,44 @@ pub fn states<const N: usize>(chain: &SerialChain<N>) -> impl Iterator<Item = St
     })
 }
 
-/// How far a method of the candidate is from the reference's.
+/// How far a method of the candidate is from the reference's, at the state where it comes nearest to, or goes farthest beyond,
+/// what is allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
     /// The method of [`Arm`].
     pub method: &'static str,
-    /// The largest relative error over the states: the largest difference of two entries, divided by the reference's
-    /// largest entry at that state. What can vanish while its terms do not is measured beside a quantity that does not:
-    /// ∇w_D beside w_D, dJ beside J, dM beside M, bias force and gravity torque beside the inverse dynamics.
+    /// The largest error of an entry, relative to what the terms that it is a sum of can amount to: the chain's length for
+    /// positions and J's rows of v, what the joints carry for M and torques, w_D for w_D, w_D or the largest entry for ∇w_D.
+    /// Forward dynamics is judged by what its accelerations need: the error is that of the torques.
     pub error: f64,
-    /// What rounding alone may leave when the reference is a [`SerialChain`], at states like those of [`states`].
-    ///
-    /// Forward dynamics and w_D have M⁻¹ and J's inverse in them: rounding grows by those condition numbers.
+    /// What rounding alone may leave at that state: 8 (N + 4) ε, times the condition number of w_D for w_D and ∇w_D.
     pub tolerance: f64,
 }
 
 impl Deviation {
+    fn new(method: &'static str) -> Self {
+        Self {
+            method,
+            error: 0.0,
+            tolerance: 0.0,
+        }
+    }
+
     /// Whether the error is within the tolerance; a NaN is not.
     pub fn passes(&self) -> bool {
         self.error <= self.tolerance
+    }
+
+    /// Keeps the worse of this and another state's error.
+    fn add(&mut self, error: f64, tolerance: f64) {
+        let excess = |error: f64, tolerance: f64| {
+            if error == 0.0 { 0.0 } else { error / tolerance }
+        };
+        let (old, new) = (excess(self.error, self.tolerance), excess(error, tolerance));
+        // NaN is never less, and stays.
+        if !old.is_nan() && (new >= old || new.is_nan()) {
+            (self.error, self.tolerance) = (error, tolerance);
+        }
     }
 }
 
@@ -85,6 +107,18 @@ impl Report {
     }
 }
 
+impl fmt::Display for Deviation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            method,
+            error,
+            tolerance,
+        } = self;
+        let verdict = if self.passes() { "ok" } else { "WRONG" };
+        write!(f, "{method:34} {error:9.1e}  {tolerance:9.0e}   {verdict}")
+    }
+}
+
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let states = self.states;
@@ -94,19 +128,13 @@ impl fmt::Display for Report {
             "method", "error", "allowed"
         )?;
         for deviation in &self.deviations {
-            let Deviation {
-                method,
-                error,
-                tolerance,
-            } = deviation;
-            let verdict = if deviation.passes() { "ok" } else { "WRONG" };
-            writeln!(f, "{method:34} {error:9.1e}  {tolerance:9.0e}   {verdict}")?;
+            writeln!(f, "{deviation}")?;
         }
         Ok(())
     }
 }
 
-/// Runs every method of [`Arm`] on both at every one of `states`.
+/// Runs every method of [`Arm`] on an arm and on its textbook twin, at every one of `states`.
 ///
 /// ```
 /// # fn verify<const N: usize>(generated: &impl ulna::Arm<N>, chain: &ulna::SerialChain<N>) {
@@ -117,161 +145,175 @@ impl fmt::Display for Report {
 /// ```
 pub fn compare<const N: usize>(
     candidate: &impl Arm<N>,
+    chain: &SerialChain<N>,
+    states: impl IntoIterator<Item = State<N>>,
+) -> Report {
+    compare_with(candidate, chain, chain, states)
+}
+
+/// [`compare`] with another reference; `chain` tells how large its quantities can be.
+pub fn compare_with<const N: usize>(
+    candidate: &impl Arm<N>,
     reference: &impl Arm<N>,
+    chain: &SerialChain<N>,
     states: impl IntoIterator<Item = State<N>>,
 ) -> Report {
     let mut report = Report {
         states: 0,
-        deviations: METHODS.map(|(method, tolerance)| Deviation {
-            method,
-            error: 0.0,
-            tolerance,
-        }),
+        deviations: METHODS.map(Deviation::new),
     };
     for state in states {
         report.states += 1;
-        let errors = errors(candidate, reference, &state);
-        for (deviation, error) in report.deviations.iter_mut().zip(errors) {
-            deviation.error = worse(deviation.error, error);
+        let found = errors(candidate, reference, chain, &state);
+        for (deviation, (error, tolerance)) in report.deviations.iter_mut().zip(found) {
+            deviation.add(error, tolerance);
         }
     }
     report
 }
 
-/// Every method and what rounding may leave of it.
-const METHODS: [(&str, f64); 15] = [
-    ("task", 0.0),
-    ("rated_torque", 0.0),
-    ("forward_kinematics", 1e-13),
-    ("geometric_jacobian", 1e-13),
-    ("jacobian_derivatives", 1e-13),
-    ("mass_matrix", 1e-13),
-    ("mass_matrix_derivatives", 1e-13),
-    ("dynamic_manipulability", 1e-9),
-    ("dynamic_manipulability_gradient", 1e-9),
-    ("inverse_dynamics", 1e-12),
-    ("bias_force", 1e-12),
-    ("gravity_torque", 1e-12),
-    ("forward_dynamics", 1e-10),
-    ("mass_matrix_and_derivatives", 1e-13),
-    ("jacobian_and_gradient", 1e-9),
+/// Every method, in the trait's order.
+const METHODS: [&str; 15] = [
+    "task",
+    "rated_torque",
+    "forward_kinematics",
+    "geometric_jacobian",
+    "jacobian_derivatives",
+    "mass_matrix",
+    "mass_matrix_derivatives",
+    "dynamic_manipulability",
+    "dynamic_manipulability_gradient",
+    "inverse_dynamics",
+    "bias_force",
+    "gravity_torque",
+    "forward_dynamics",
+    "mass_matrix_and_derivatives",
+    "jacobian_and_gradient",
 ];
 
-/// The relative error of each method at `state`, in the order of [`METHODS`].
+/// What rounding may leave of a quantity, relative to the size of its terms.
+const fn rounding(joints: usize) -> f64 {
+    8.0 * (joints + 4) as f64 * f64::EPSILON
+}
+
+/// The error of each method at `state`, and what is allowed, in the order of [`METHODS`].
 fn errors<const N: usize>(
     candidate: &impl Arm<N>,
     reference: &impl Arm<N>,
+    chain: &SerialChain<N>,
     state: &State<N>,
-) -> [f64; 15] {
+) -> [(f64, f64); 15] {
     let State { q, qd, qdd, tau } = state;
-    macro_rules! both {
-        ($method:ident($($argument:expr),*)) => {
-            candidate.$method($($argument),*).error(&reference.$method($($argument),*))
-        };
-    }
-    macro_rules! beside {
-        ($scale:expr, $method:ident($($argument:expr),*)) => {
-            ($scale, candidate.$method($($argument),*)).error(&($scale, reference.$method($($argument),*)))
-        };
-    }
+    let scale = Scale::new(reference, chain, q);
+    let rest = SVector::zeros();
+    let equal = |same: bool| (if same { 0.0 } else { f64::INFINITY }, 0.0);
+    let rounded = |error: f64| (error, rounding(N));
+    let torque = |qd, qdd, found: SVector<f64, N>, expected: SVector<f64, N>| {
+        rounded(Scale::torques(&scale.torque(qd, qdd), &(found - expected)))
+    };
+    let conditioned = |error: f64| (error, rounding(N) * scale.condition);
+    let (w, gradient) = reference.dynamic_manipulability_gradient(q);
+    let manipulability = |found: f64| relative(found - w, w);
+    let slopes = |found: (f64, SVector<f64, N>)| {
+        let largest = gradient.amax().max(w);
+        let difference = found.1 - gradient;
+        let entries = (0..N).map(|i| relative(difference[i] * scale.unit(chain, i), largest));
+        entries.fold(manipulability(found.0), worse)
+    };
     let jacobian = reference.geometric_jacobian(q);
+    let twists = |found: SMatrix<f64, 6, N>| scale.twists(&(found - jacobian));
     let mass = reference.mass_matrix(q);
-    let torque = reference.inverse_dynamics(q, qd, qdd);
-    let equal = |same: bool| if same { 0.0 } else { f64::INFINITY };
+    let masses = |found: SMatrix<f64, N, N>| Scale::masses(&scale.inertia, &(found - mass));
+    let mass_derivatives = reference.mass_matrix_derivatives(q);
+    let masses_change = |found: &[SMatrix<f64, N, N>; N]| {
+        let each = (0..N).map(|i| {
+            let sizes = match chain.joints[i].kind {
+                JointKind::Revolute => &scale.inertia,
+                JointKind::Prismatic => &scale.inertia_ahead,
+            };
+            let change = (found[i] - mass_derivatives[i]) * scale.unit(chain, i);
+            Scale::masses(sizes, &change)
+        });
+        each.fold(0.0, worse)
+    };
+    let twists_change = {
+        let (found, expected) = (
+            candidate.jacobian_derivatives(q),
+            reference.jacobian_derivatives(q),
+        );
+        let each = (0..N).map(|i| scale.twists(&(found[i] - expected[i])) * scale.unit(chain, i));
+        each.fold(0.0, worse)
+    };
+    let both = candidate.mass_matrix_and_derivatives(q);
+    let (beside, w_beside, gradient_beside) = candidate.jacobian_and_gradient(q);
     [
         equal(candidate.task() == reference.task()),
         equal(candidate.rated_torque() == reference.rated_torque()),
-        both!(forward_kinematics(q)),
-        both!(geometric_jacobian(q)),
-        beside!(jacobian, jacobian_derivatives(q)),
-        both!(mass_matrix(q)),
-        beside!(mass, mass_matrix_derivatives(q)),
-        both!(dynamic_manipulability(q)),
-        both!(dynamic_manipulability_gradient(q)),
-        both!(inverse_dynamics(q, qd, qdd)),
-        beside!(torque, bias_force(q, qd)),
-        beside!(torque, gravity_torque(q)),
-        both!(forward_dynamics(q, qd, tau)),
-        both!(mass_matrix_and_derivatives(q)),
-        both!(jacobian_and_gradient(q)),
+        rounded(pose_error(
+            &candidate.forward_kinematics(q),
+            &reference.forward_kinematics(q),
+            scale.position,
+        )),
+        rounded(twists(candidate.geometric_jacobian(q))),
+        rounded(twists_change),
+        rounded(masses(candidate.mass_matrix(q))),
+        rounded(masses_change(&candidate.mass_matrix_derivatives(q))),
+        conditioned(manipulability(candidate.dynamic_manipulability(q))),
+        conditioned(slopes(candidate.dynamic_manipulability_gradient(q))),
+        torque(
+            qd,
+            qdd,
+            candidate.inverse_dynamics(q, qd, qdd),
+            reference.inverse_dynamics(q, qd, qdd),
+        ),
+        torque(
+            qd,
+            &rest,
+            candidate.bias_force(q, qd),
+            reference.bias_force(q, qd),
+        ),
+        torque(
+            &rest,
+            &rest,
+            candidate.gravity_torque(q),
+            reference.gravity_torque(q),
+        ),
+        {
+            let found = candidate.forward_dynamics(q, qd, tau);
+            let needed = reference.inverse_dynamics(q, qd, &found);
+            let sizes = scale.torque(qd, &found) + tau.abs();
+            rounded(Scale::torques(&sizes, &(needed - tau)))
+        },
+        rounded(worse(masses(both.0), masses_change(&both.1))),
+        {
+            let (jacobian, gradient) = (twists(beside), slopes((w_beside, gradient_beside)));
+            let (_, allowed) = conditioned(gradient);
+            // J's own error is small enough on its own account, or too large on any.
+            let excess = if jacobian <= rounding(N) {
+                0.0
+            } else {
+                f64::INFINITY
+            };
+            (worse(gradient, excess), allowed)
+        },
     ]
 }
 
-/// What a method of [`Arm`] returns.
-trait Quantity {
-    /// The relative error against `reference`.
-    fn error(&self, reference: &Self) -> f64;
+/// The larger error of a rotation's entry and of a position, relative to `size`.
+fn pose_error(found: &IsometryMatrix3<f64>, expected: &IsometryMatrix3<f64>, size: f64) -> f64 {
+    let turned = found.rotation.matrix() - expected.rotation.matrix();
+    let moved = found.translation.vector - expected.translation.vector;
+    let turned = turned.iter().map(|x| x.abs());
+    let moved = moved.iter().map(|x| x.abs() / size);
+    turned.chain(moved).fold(0.0, worse)
 }
 
-impl Quantity for f64 {
-    fn error(&self, reference: &Self) -> f64 {
-        relative([(*self, *reference)])
-    }
-}
-
-impl<const R: usize, const C: usize> Quantity for SMatrix<f64, R, C> {
-    fn error(&self, reference: &Self) -> f64 {
-        relative(pairs(self, reference))
-    }
-}
-
-/// A vector beside one of the same kind.
-impl<const R: usize, const C: usize> Quantity for (SMatrix<f64, R, C>, SMatrix<f64, R, C>) {
-    fn error(&self, reference: &Self) -> f64 {
-        relative(pairs(&self.0, &reference.0).chain(pairs(&self.1, &reference.1)))
-    }
-}
-
-/// A matrix and its derivatives.
-impl<const R: usize, const C: usize, const K: usize> Quantity
-    for (SMatrix<f64, R, C>, [SMatrix<f64, R, C>; K])
-{
-    fn error(&self, reference: &Self) -> f64 {
-        let derivatives = self.1.iter().zip(&reference.1);
-        let derivatives = derivatives.flat_map(|(a, b)| pairs(a, b));
-        relative(pairs(&self.0, &reference.0).chain(derivatives))
-    }
-}
-
-impl Quantity for IsometryMatrix3<f64> {
-    fn error(&self, reference: &Self) -> f64 {
-        self.to_homogeneous().error(&reference.to_homogeneous())
-    }
-}
-
-/// w_D and ∇w_D.
-impl<const N: usize> Quantity for (f64, SVector<f64, N>) {
-    fn error(&self, reference: &Self) -> f64 {
-        relative(pairs(&self.1, &reference.1).chain([(self.0, reference.0)]))
-    }
-}
-
-/// J, w_D and ∇w_D.
-impl<const N: usize> Quantity for (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
-    fn error(&self, reference: &Self) -> f64 {
-        let gradient = (self.1, self.2).error(&(reference.1, reference.2));
-        worse(self.0.error(&reference.0), gradient)
-    }
-}
-
-fn pairs<'a, const R: usize, const C: usize>(
-    a: &'a SMatrix<f64, R, C>,
-    b: &'a SMatrix<f64, R, C>,
-) -> impl Iterator<Item = (f64, f64)> + 'a {
-    a.iter().copied().zip(b.iter().copied())
-}
-
-/// The largest difference of a pair, divided by the largest second of a pair; the difference itself where all those are 0.
-fn relative(pairs: impl IntoIterator<Item = (f64, f64)>) -> f64 {
-    let (difference, scale) = pairs
-        .into_iter()
-        .fold((0.0, 0.0), |(difference, scale), (a, b)| {
-            (worse(difference, (a - b).abs()), worse(scale, b.abs()))
-        });
-    if scale == 0.0 {
-        difference
+/// `difference` relative to `size`; 0 if there is no difference, whatever the size.
+fn relative(difference: f64, size: f64) -> f64 {
+    if difference == 0.0 {
+        0.0
     } else {
-        difference / scale
+        difference.abs() / size.abs()
     }
 }
 

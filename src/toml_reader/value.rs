@@ -16,6 +16,15 @@ pub(crate) struct Located<T> {
 }
 
 impl<T> Located<T> {
+    /// The place alone.
+    pub(crate) fn place(&self) -> Located<()> {
+        Located {
+            value: (),
+            span: self.span.clone(),
+            name: self.name.clone(),
+        }
+    }
+
     /// Another value from the same place.
     pub(crate) fn map<U>(self, f: impl FnOnce(T) -> U) -> Located<U> {
         Located {

@@ -160,7 +160,7 @@ impl<'p> Writer<'p> {
     fn operand(&self, operand: Operand) -> Code {
         match operand {
             Operand::Constant(value) => {
-                let value = literal(value);
+                let value = literal(value.to_f64());
                 Code::atom(quote!(R::of(#value)))
             }
             Operand::Input(input) => Code::atom(self.input(input)),

@@ -7,6 +7,7 @@ use super::expression::Writer;
 use super::literal::literal;
 use super::parts;
 use crate::Method;
+use crate::accuracy::rounded_up;
 use crate::cost::Counts;
 use crate::graph::AngleSum;
 
@@ -62,13 +63,17 @@ pub(super) fn kernel(method: &Method, joints: usize) -> TokenStream {
     }
 }
 
-fn documentation(method: &Method) -> [String; 3] {
+fn documentation(method: &Method) -> [String; 4] {
     let counts = Counts::of(&method.program);
     let (operations, angles) = (counts.total, counts.sin_cos);
     [
         format!(" {}", method.doc),
         String::new(),
         format!(" Operations: {operations}, and sine and cosine of {angles} angles."),
+        format!(
+            " Error of the worst entry, relative to the largest: {} (the file's head says of what).",
+            rounded_up(method.error)
+        ),
     ]
 }
 
@@ -96,7 +101,7 @@ fn angles(writer: &Writer<'_>, angles: &[AngleSum]) -> TokenStream {
         if *offset == 0.0 {
             sum
         } else {
-            let offset = literal(*offset);
+            let offset = literal(offset.to_f64());
             quote!(#sum + R::of(#offset))
         }
     });

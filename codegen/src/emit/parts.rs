@@ -11,6 +11,7 @@ use quote::{format_ident, quote};
 use super::expression::Writer;
 use super::kernel::{NAMES_PER_SCOPE, array_of};
 use crate::Method;
+use crate::double_double::DoubleDouble;
 use crate::schedule::{Operand, Output};
 
 /// Named values in a part. Shorter parts share more values, longer ones compile more slowly.
@@ -120,7 +121,7 @@ fn elements_by_last_name(
     for output in outputs {
         let field = format_ident!("{}", output.name);
         for (index, operand) in output.elements.iter().enumerate() {
-            if *operand == Operand::Constant(0.0) {
+            if *operand == Operand::Constant(DoubleDouble::default()) {
                 continue;
             }
             let mut names = Vec::new();
@@ -229,7 +230,7 @@ mod tests {
     #[test]
     fn what_a_part_reads_is_there() {
         let model = Model::load("../arms/oblique_6.toml").unwrap();
-        for method in crate::compile(&model) {
+        for method in crate::compile(&model).methods {
             let writer = Writer::new(&method.program);
             let (named, steps) = (writer.named(), writer.named_steps());
             let elements = elements_by_last_name(&writer, &method.program.outputs, &named);
@@ -283,7 +284,7 @@ mod tests {
                 .flat_map(|output| &output.elements);
             let zeros = operands
                 .clone()
-                .filter(|o| **o == Operand::Constant(0.0))
+                .filter(|o| **o == Operand::Constant(DoubleDouble::default()))
                 .count();
             assert_eq!(written, operands.count() - zeros, "{}", method.name);
         }

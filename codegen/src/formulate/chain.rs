@@ -9,8 +9,9 @@ use std::ops::Range;
 
 use ulna::{Angle, JointKind, Model, Placement, TaskRows};
 
-use super::body::{ConstantBody, base_parameters};
-use super::vector::{Turn, Vec3};
+use super::body::{Body, base_parameters};
+use super::vector::{Turn, Vec3, quarter_turns};
+use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Input};
 
 /// A joint on the graph.
@@ -24,7 +25,7 @@ pub struct ChainJoint<'g> {
     /// The turn that takes a vector of the joint's own frame to the group's axes.
     pub group_from_own: Turn<'g>,
     /// The link's inertial constants, regrouped ([`base_parameters`]), in its own frame.
-    pub body: ConstantBody,
+    pub body: Body<'g>,
 }
 
 /// Joints about parallel axes.
@@ -64,7 +65,7 @@ pub struct Chain<'g> {
     /// `frame_N_from_tool`.
     pub tool: Placement,
     /// Gravity in base axes, m/s².
-    pub gravity: [f64; 3],
+    pub gravity: Vec3<'g>,
     /// The rows of J in w_D.
     pub task: TaskRows,
 }
@@ -72,11 +73,11 @@ pub struct Chain<'g> {
 impl<'g> Chain<'g> {
     /// Lays the model out on the graph.
     pub fn new(graph: &'g Graph, model: &Model) -> Self {
-        let bodies = base_parameters(model);
+        let bodies = base_parameters(graph, model);
         let groups: Vec<Group<'g>> = parallel_runs(model)
             .into_iter()
             .map(|joints| Group {
-                alpha: Turn::constant(graph, model.joints[joints.start].alpha.sin_cos()),
+                alpha: Turn::by_angle(graph, model.joints[joints.start].alpha),
                 turn: sum_of_angles(graph, model, joints.clone()),
                 joints,
             })
@@ -98,11 +99,9 @@ impl<'g> Chain<'g> {
             groups,
             base: model.base,
             tool: model.tool,
-            gravity: std::array::from_fn(|j| {
-                (0..3)
-                    .map(|i| world_from_base[i][j] * model.gravity[i])
-                    .sum()
-            }),
+            gravity: Vec3::constant(graph, model.gravity).rotate(std::array::from_fn(|j| {
+                std::array::from_fn(|i| world_from_base[i][j])
+            })),
             task: model.task,
         }
     }
@@ -172,32 +171,24 @@ fn sum_of_angles<'g>(graph: &'g Graph, model: &Model, range: Range<usize>) -> Tu
     let mut quarters = 0;
     let mut sum = AngleSum::default();
     for i in range {
-        let (whole, rest) = model.joints[i].theta.quarter_turns();
+        let (whole, rest) = quarter_turns(model.joints[i].theta);
         quarters += whole;
-        sum.offset += rest;
+        sum.offset = sum.offset + rest;
         if model.joints[i].kind == JointKind::Revolute {
             sum.joints.push(i);
         }
     }
-    let Turn { sin, cos } = if sum.joints.is_empty() {
-        Turn::constant(graph, Angle::from_radians(sum.offset).sin_cos())
+    let turn = if sum.joints.is_empty() {
+        // Angles that add up to a quarter turn are one.
+        let (whole, rest) = Angle::from_radians(sum.offset.to_f64()).quarter_turns();
+        if rest == 0.0 {
+            quarters += whole;
+            sum.offset = DoubleDouble::default();
+        }
+        Turn::by_number(graph, sum.offset)
     } else {
         let (sin, cos) = graph.sin_cos(&sum);
         Turn { sin, cos }
     };
-    match quarters.rem_euclid(4) {
-        0 => Turn { sin, cos },
-        1 => Turn {
-            sin: cos,
-            cos: -sin,
-        },
-        2 => Turn {
-            sin: -sin,
-            cos: -cos,
-        },
-        _ => Turn {
-            sin: -cos,
-            cos: sin,
-        },
-    }
+    turn.and_quarters(quarters)
 }

@@ -54,7 +54,7 @@ pub fn inverse_dynamics<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
-            let body = Body::constant(chain.graph, &joint.body).turn_z(joint.group_from_own);
+            let body = joint.body.turn_z(joint.group_from_own);
             let (own_force, own_moment) = wrench(&body, &motions[i]);
             force = force + own_force;
             moment = moment + own_moment;
@@ -77,7 +77,7 @@ fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Moti
     let mut motion = Motion {
         velocity: chain.zero(),
         angular_acceleration: chain.zero(),
-        acceleration: -Vec3::constant(chain.graph, chain.gravity),
+        acceleration: -chain.gravity,
     };
     let mut motions = Vec::new();
     for group in &chain.groups {

@@ -34,7 +34,7 @@ pub fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
-            let own = Body::constant(chain.graph, &joint.body).turn_z(joint.group_from_own);
+            let own = joint.body.turn_z(joint.group_from_own);
             let (composite, passed) = match beyond {
                 Some((body, momenta)) => (own.join(body), momenta),
                 None => (own, Vec::new()),

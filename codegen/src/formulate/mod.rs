@@ -18,7 +18,7 @@ use ulna::{TaskRow, TaskRows};
 use self::chain::Chain;
 use self::inverse_dynamics::inverse_dynamics;
 use self::kinematics::{jacobian_derivatives, jacobian_in_group, jacobian_in_world, pose};
-use self::manipulability::manipulability;
+use self::manipulability::Manipulability;
 use self::mass_matrix::mass_matrix;
 use self::mass_matrix_derivatives::mass_matrix_derivatives;
 use crate::graph::{Expr, Input};
@@ -27,13 +27,16 @@ use crate::schedule::Output;
 /// Results of one method.
 pub type Outputs<'g> = Vec<Output<Expr<'g>>>;
 
-/// Frames in which a Jacobian is built, each free to choose; 0 is the base, k the last frame of the k-th group.
+/// What is settled before the formulas are written down. A frame is free to choose;
+/// 0 is the base, k the last frame of the k-th group.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Frames {
+pub struct Choices {
     /// Where J in world axes switches from turning down joint by joint to the frame's world axes.
     pub world: usize,
     /// The axes of J within w_D.
     pub task: usize,
+    /// Whether the task is singular in every configuration, so that w_D is 0 there.
+    pub singular: bool,
 }
 
 /// A method of [`ulna::Arm`] and its formulation.
@@ -45,7 +48,7 @@ pub struct Quantity {
     /// Its arguments: some of `q`, `qd`, `qdd`, `tau`.
     pub arguments: &'static [&'static str],
     /// Its results.
-    pub formulate: for<'g> fn(&Chain<'g>, Frames) -> Outputs<'g>,
+    pub formulate: for<'g> fn(&Chain<'g>, Choices) -> Outputs<'g>,
 }
 
 /// Every method that code is generated for.
@@ -67,10 +70,10 @@ pub const QUANTITIES: [Quantity; 13] = [
                doc: "∂M/∂q_i, N×N for each i, kg·m²/rad.",
                formulate: |c, _| vec![derivatives_of_mass(c)] },
     Quantity { method: "dynamic_manipulability", arguments: &["q"],
-               doc: "w_D over the task's rows of J (Eq. 15), and its margins.",
+               doc: "w_D over the task's rows of J (Eq. 15), and det(JJᵀ) over them.",
                formulate: |c, f| without_gradient(manipulability_and_gradient(c, f)) },
     Quantity { method: "dynamic_manipulability_gradient", arguments: &["q"],
-               doc: "w_D, ∇w_D (Eq. 22–27), and the margins of w_D.",
+               doc: "w_D, ∇w_D (Eq. 22–27), and det(JJᵀ) over the task's rows.",
                formulate: manipulability_and_gradient },
     Quantity { method: "inverse_dynamics", arguments: &["q", "qd", "qdd"],
                doc: "Joint torques, N·m, for the accelerations `qdd`.",
@@ -88,7 +91,7 @@ pub const QUANTITIES: [Quantity; 13] = [
                doc: "Mass matrix, and its derivatives by each joint.",
                formulate: |c, _| vec![mass(c), derivatives_of_mass(c)] },
     Quantity { method: "jacobian_and_gradient", arguments: &["q"],
-               doc: "Geometric Jacobian, w_D, ∇w_D, and the margins of w_D.",
+               doc: "Geometric Jacobian, w_D, ∇w_D, and det(JJᵀ) over the task's rows.",
                formulate: |c, f| [vec![jacobian(c, f)], manipulability_and_gradient(c, f)].into_iter().flatten().collect() },
 ];
 
@@ -112,8 +115,8 @@ fn forward_kinematics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
     ]
 }
 
-fn jacobian<'g>(chain: &Chain<'g>, frames: Frames) -> Output<Expr<'g>> {
-    let columns = jacobian_in_world(chain, frames.world);
+fn jacobian<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
+    let columns = jacobian_in_world(chain, choices.world);
     Output {
         name: "jacobian",
         shape: vec![chain.joint_count(), 6],
@@ -124,8 +127,8 @@ fn jacobian<'g>(chain: &Chain<'g>, frames: Frames) -> Output<Expr<'g>> {
     }
 }
 
-fn derivatives_of_jacobian<'g>(chain: &Chain<'g>, frames: Frames) -> Output<Expr<'g>> {
-    let derivatives = jacobian_derivatives(chain, &jacobian_in_world(chain, frames.world));
+fn derivatives_of_jacobian<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
+    let derivatives = jacobian_derivatives(chain, &jacobian_in_world(chain, choices.world));
     Output {
         name: "derivatives",
         shape: vec![chain.joint_count(), chain.joint_count(), 6],
@@ -174,24 +177,47 @@ fn forward_dynamics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
 
 /// w_D does not change when all of a triplet of J's rows is turned; a task of whole triplets may be taken in any axes.
 fn is_of_whole_triplets(task: TaskRows) -> bool {
-    rows_of_each_kind(task).iter().all(|rows| rows % 3 == 0)
+    [
+        TaskRows::POSITION,
+        TaskRows::POSE,
+        TaskRows::new(&TaskRow::ALL[3..]),
+    ]
+    .contains(&task)
 }
 
-/// How many linear and how many angular rows.
-fn rows_of_each_kind(task: TaskRows) -> [usize; 2] {
-    let linear = task.iter().filter(|row| row.index() < 3).count();
-    [linear, task.len() - linear]
-}
-
-/// Pivots and lengths, each filled up to six by repeating the first, so that all arms' kernels have one signature.
-fn margins<'g>(pivots: &[Expr<'g>], lengths: &[Expr<'g>]) -> Output<Expr<'g>> {
-    let six = |row: &[Expr<'g>]| -> Vec<Expr<'g>> {
-        (0..6).map(|i| *row.get(i).unwrap_or(&row[0])).collect()
+/// The task's rows of J, in whatever axes are chosen.
+fn task_rows<'g>(chain: &Chain<'g>, choices: Choices) -> Vec<Vec<Expr<'g>>> {
+    let columns = if is_of_whole_triplets(chain.task) {
+        jacobian_in_group(chain, choices.task)
+    } else {
+        jacobian_in_world(chain, choices.task)
     };
+    let row = |row: TaskRow| {
+        let components = columns.iter().map(|twist| twist.components()[row.index()]);
+        components.collect()
+    };
+    chain.task.iter().map(row).collect()
+}
+
+/// det(JJᵀ) over the task's rows, and the product of the rows' squared lengths: how near to singular the task is.
+pub fn relative_volume<'g>(chain: &Chain<'g>) -> Outputs<'g> {
+    let rows = task_rows(chain, Choices::default());
+    let lengths = rows.iter().map(|row| {
+        let zero = chain.graph.constant(0.0);
+        row.iter().fold(zero, |sum, x| sum + *x * *x)
+    });
+    let lengths = lengths.fold(chain.graph.constant(1.0), |product, x| product * x);
+    vec![
+        number("volume", manipulability::volume_squared(&rows)),
+        number("lengths", lengths),
+    ]
+}
+
+fn number<'g>(name: &'static str, value: Expr<'g>) -> Output<Expr<'g>> {
     Output {
-        name: "margins",
-        shape: vec![2, 6],
-        elements: [six(pivots), six(lengths)].concat(),
+        name,
+        shape: vec![],
+        elements: vec![value],
     }
 }
 
@@ -200,37 +226,19 @@ fn without_gradient(mut outputs: Outputs<'_>) -> Outputs<'_> {
     outputs
 }
 
-fn manipulability_and_gradient<'g>(chain: &Chain<'g>, frames: Frames) -> Outputs<'g> {
-    let columns = if is_of_whole_triplets(chain.task) {
-        jacobian_in_group(chain, frames.task)
+fn manipulability_and_gradient<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
+    let found = if choices.singular {
+        Manipulability::zero(chain.graph.constant(0.0), chain.joint_count())
     } else {
-        jacobian_in_world(chain, frames.task)
-    };
-    let row = |row: TaskRow| {
-        columns
-            .iter()
-            .map(|c| c.components()[row.index()])
-            .collect()
-    };
-    let rows: Vec<Vec<Expr<'g>>> = chain.task.iter().map(row).collect();
-    let passes = rows_of_each_kind(chain.task)
-        .iter()
-        .filter(|rows| **rows > 0)
-        .count();
-    let found = manipulability(&rows, &mass_matrix(chain), passes);
-    let vector = |name, elements: Vec<Expr<'g>>| Output {
-        name,
-        shape: vec![elements.len()],
-        elements,
-    };
-    let value = Output {
-        name: "value",
-        shape: vec![],
-        elements: vec![found.value],
+        manipulability::manipulability(&task_rows(chain, choices), &mass_matrix(chain))
     };
     vec![
-        value,
-        vector("gradient", found.gradient),
-        margins(&found.pivots, &found.lengths),
+        number("value", found.value),
+        Output {
+            name: "gradient",
+            shape: vec![chain.joint_count()],
+            elements: found.gradient,
+        },
+        number("volume", found.volume_squared),
     ]
 }

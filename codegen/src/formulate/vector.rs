@@ -2,6 +2,9 @@
 
 use std::ops::{Add, Neg, Sub};
 
+use ulna::{Angle, Real};
+
+use crate::double_double::DoubleDouble;
 use crate::graph::{Expr, Graph};
 
 /// A three-vector.
@@ -21,13 +24,45 @@ pub struct Turn<'g> {
     pub cos: Expr<'g>,
 }
 
+/// The whole number of quarter turns nearest to the angle, and what is left, rad; exactly 0 where [`Angle`] says so.
+pub fn quarter_turns(angle: Angle) -> (i64, DoubleDouble) {
+    let (quarters, rest) = angle.quarter_turns();
+    let turned = DoubleDouble::HALF_PI * DoubleDouble::of(quarters as f64);
+    let rest = if rest == 0.0 {
+        DoubleDouble::default()
+    } else {
+        DoubleDouble::of(angle.radians) - turned
+    };
+    (quarters, rest)
+}
+
 impl<'g> Turn<'g> {
-    /// A turn by numbers.
-    pub fn constant(graph: &'g Graph, (sin, cos): (f64, f64)) -> Self {
+    /// A turn by a fixed angle; exact at quarter turns.
+    pub fn by_angle(graph: &'g Graph, angle: Angle) -> Self {
+        let (quarters, rest) = quarter_turns(angle);
+        Self::by_number(graph, rest).and_quarters(quarters)
+    }
+
+    /// A turn by a number, rad.
+    pub fn by_number(graph: &'g Graph, angle: DoubleDouble) -> Self {
+        let (sin, cos) = angle.sin_cos();
         Self {
             sin: graph.constant(sin),
             cos: graph.constant(cos),
         }
+    }
+
+    /// The turn and so many quarter turns more.
+    #[must_use]
+    pub fn and_quarters(self, quarters: i64) -> Self {
+        let Self { sin, cos } = self;
+        let (sin, cos) = match quarters.rem_euclid(4) {
+            0 => (sin, cos),
+            1 => (cos, -sin),
+            2 => (-sin, -cos),
+            _ => (-cos, sin),
+        };
+        Self { sin, cos }
     }
 
     /// The turn the other way.

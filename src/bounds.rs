@@ -1,0 +1,42 @@
+//! How large what an arm's matrices are made of can be: the sizes that rounding is relative to.
+
+use crate::{Joint, JointKind};
+
+/// The least share that a link must have in what its joint carries (see [`own_inertia`] and [`carried_inertia`]).
+///
+/// M's entries are rounded relative to what a joint carries. The pivots of M, which are never smaller than a link's own share,
+/// stay positive while that share is well above the rounding: N + 20 units or so of 1.1e-16.
+pub const LEAST_SHARE: f64 = 1e-13;
+
+/// What a link alone adds to its joint's entry of M: its inertia about the joint's axis, kg·m² (its mass, kg, for a prismatic joint).
+pub fn own_inertia(joint: &Joint) -> f64 {
+    let [x, y, _] = joint.link.com;
+    match joint.kind {
+        JointKind::Revolute => joint.link.inertia[2][2] + joint.link.mass * (x * x + y * y),
+        JointKind::Prismatic => joint.link.mass,
+    }
+}
+
+/// An upper bound of joint `index`'s entry of M, kg·m² (kg), over all angles of the joints beyond it:
+/// the inertias of all links beyond, each at its greatest distance. `travel` is how far a prismatic joint is out, m.
+pub fn carried_inertia(joints: &[Joint], index: usize, travel: impl Fn(usize) -> f64) -> f64 {
+    let (mut carried, mut reach) = (0.0, 0.0);
+    for (i, joint) in joints.iter().enumerate().skip(index) {
+        if i > index {
+            reach += joint.a.abs() + joint.d.abs();
+            if joint.kind == JointKind::Prismatic {
+                reach += travel(i).abs();
+            }
+        }
+        let link = &joint.link;
+        let distance = reach + link.com.iter().map(|x| x.abs()).sum::<f64>();
+        carried += match joints[index].kind {
+            JointKind::Revolute => {
+                let trace = link.inertia[0][0] + link.inertia[1][1] + link.inertia[2][2];
+                trace + link.mass * distance * distance
+            }
+            JointKind::Prismatic => link.mass,
+        };
+    }
+    carried
+}

@@ -1,0 +1,118 @@
+//! How large a rounding error may be at a state: what each quantity's terms amount to there, and how strongly w_D reacts.
+
+use nalgebra::{SMatrix, SVector, Vector3};
+
+use crate::bounds::carried_inertia;
+use crate::generic::{ThinQr, factor, task_columns};
+use crate::{Arm, JointKind, Real, SerialChain, TaskRow};
+
+/// The sizes that errors at a state are relative to.
+pub(super) struct Scale<const N: usize> {
+    /// The chain's length, m: rows of v of J and ∂J are measured by it.
+    pub(super) length: f64,
+    /// Greatest distance of the tool from the world's origin, m.
+    pub(super) position: f64,
+    /// √ of each joint's largest possible entry of M: the entry (i, j) is measured by the product of two.
+    pub(super) inertia: SVector<f64, N>,
+    /// Likewise where every prismatic joint is out by the chain's length more: what M's change over that length is measured by.
+    pub(super) inertia_ahead: SVector<f64, N>,
+    /// The first-order condition number of w_D: its relative change, at worst, where the entries of J and M change by
+    /// ε times the sizes above, is ε times this.
+    pub(super) condition: f64,
+    gravity: f64,
+}
+
+impl<const N: usize> Scale<N> {
+    pub(super) fn new(
+        reference: &impl Arm<N>,
+        chain: &SerialChain<N>,
+        q: &SVector<f64, N>,
+    ) -> Self {
+        let coordinates = crate::unrolled::coordinates(chain, &q.data.0[0]);
+        let length = chain.length(&coordinates);
+        let inertia = SVector::from_fn(|i, _| {
+            Real::sqrt(carried_inertia(&chain.joints, i, |joint| {
+                coordinates[joint]
+            }))
+        });
+        let inertia_ahead = SVector::from_fn(|i, _| {
+            let ahead = |joint: usize| coordinates[joint].abs() + length;
+            Real::sqrt(carried_inertia(&chain.joints, i, ahead))
+        });
+        let mass: f64 = chain.joints.iter().map(|joint| joint.link.mass).sum();
+        let mut scale = Self {
+            length,
+            position: length + Vector3::from(chain.base.translation).norm(),
+            inertia,
+            inertia_ahead,
+            condition: 1.0,
+            gravity: Vector3::from(chain.gravity).norm() * Real::sqrt(mass),
+        };
+        scale.condition = scale.condition_of_manipulability(reference, q);
+        scale
+    }
+
+    /// Σ |W_rj| s_r + Σ |(HᵀW)_ij| m_i m_j, s the sizes of J's entries and m m that of M's:
+    /// δ ln w_D = ⟨W, δJ⟩ − ⟨HᵀW, δM⟩, with H = JM⁻¹ and W = (H†)ᵀM⁻¹.
+    fn condition_of_manipulability(&self, reference: &impl Arm<N>, q: &SVector<f64, N>) -> f64 {
+        let task = reference.task();
+        let jacobian = reference.geometric_jacobian(q);
+        let mass = factor(reference.mass_matrix(q));
+        let h = mass.solve(&task_columns(task, &jacobian));
+        let w = mass.solve(&ThinQr::new(h, task.len()).duals());
+        let mut condition = 0.0;
+        for (column, row) in task.iter().enumerate() {
+            let size = if row < TaskRow::Rx { self.length } else { 1.0 };
+            condition += w.column(column).iter().map(|w| w.abs()).sum::<f64>() * size;
+        }
+        let outer = h * w.transpose();
+        for (i, j) in (0..N).flat_map(|i| (0..N).map(move |j| (i, j))) {
+            condition += outer[(i, j)].abs() * self.inertia[i] * self.inertia[j];
+        }
+        condition
+    }
+
+    /// What the terms of each joint's torque may amount to, N·m (N), in the motion `(q̇, q̈)`.
+    pub(super) fn torque(&self, qd: &SVector<f64, N>, qdd: &SVector<f64, N>) -> SVector<f64, N> {
+        let speed: f64 = qd.iter().map(|x| x.abs()).sum();
+        let accelerated: f64 = self.inertia.iter().zip(qdd).map(|(m, x)| m * x.abs()).sum();
+        let turned = self.inertia.amax() * speed * speed;
+        self.inertia * (accelerated + turned + self.gravity)
+    }
+
+    /// The unit of ∂/∂q_i: 1 for an angle, the chain's length for an offset.
+    pub(super) fn unit(&self, chain: &SerialChain<N>, joint: usize) -> f64 {
+        match chain.joints[joint].kind {
+            JointKind::Revolute => 1.0,
+            JointKind::Prismatic => self.length,
+        }
+    }
+
+    /// The largest of a 6×N matrix's entries, those of v relative to the length.
+    pub(super) fn twists(&self, difference: &SMatrix<f64, 6, N>) -> f64 {
+        let mut largest = 0.0;
+        for (index, x) in difference.iter().enumerate() {
+            let size = if index % 6 < 3 { self.length } else { 1.0 };
+            largest = super::worse(largest, x.abs() / size);
+        }
+        largest
+    }
+
+    /// The largest of an N×N matrix's entries, relative to M's sizes, or to `sizes` of their own.
+    pub(super) fn masses(sizes: &SVector<f64, N>, difference: &SMatrix<f64, N, N>) -> f64 {
+        let mut largest = 0.0;
+        for (i, j) in (0..N).flat_map(|i| (0..N).map(move |j| (i, j))) {
+            let size = sizes[i] * sizes[j];
+            largest = super::worse(largest, difference[(i, j)].abs() / size);
+        }
+        largest
+    }
+
+    /// The inverse dynamics' error: the worst joint's, relative to what its torque is made of.
+    pub(super) fn torques(sizes: &SVector<f64, N>, difference: &SVector<f64, N>) -> f64 {
+        let pairs = difference.iter().zip(sizes);
+        pairs.fold(0.0, |worst, (x, size)| {
+            super::worse(worst, if *x == 0.0 { 0.0 } else { x.abs() / size })
+        })
+    }
+}
