@@ -213,7 +213,8 @@ class Arm:
     def condition(self, q):
         """Of J over the task's rows, those of v divided by the chain's length and prismatic columns multiplied by it.
 
-        By singular values in doubles: beyond 1e15 it only says "very"."""
+        The largest singular value counts as 1 at least, the size of an axis: a single row is singular where it is all but 0.
+        In doubles: beyond 1e15 the number only says "very"."""
         ctx.prec = BITS[0]
         jacobian, _ = self.jacobian_and_mass_matrix([arb(x) for x in q])
         length = self.length(q)
@@ -228,7 +229,7 @@ class Arm:
         ]
         values = numpy.array([[float(x.mid()) for x in row] for row in scaled])
         singular = numpy.linalg.svd(values, compute_uv=False)
-        return float(singular[0] / singular[-1]) if singular[-1] > 0 else math.inf
+        return float(max(singular[0], 1.0) / singular[-1]) if singular[-1] > 0 else math.inf
 
     def length(self, q):
         links = sum(

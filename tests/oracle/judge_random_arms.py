@@ -31,7 +31,7 @@ def judged(w, gradient, given, condition):
     """The errors of the gradient and of w_D."""
     if given["w"] is None or any(x is None for x in given["gradient"]):
         return math.inf, math.inf  # NaN or infinite
-    if condition > SINGULAR and given["w"] == 0.0:
+    if given["w"] == 0.0 and (w is None or condition > SINGULAR):
         return 0.0, 0.0
     if w is None:
         return 1.0, 1.0
