@@ -259,12 +259,15 @@ fn least_volume_squared(model: &Model, q: &[f64]) -> f64 {
     ulna::singular::least_volume_squared(&model.joints, &model.tool, model.task, q)
 }
 
-/// From `q` downhill on `relative`, joint by joint, to a pose where it is a little above [`LEAST_VOLUME`]; `None` if none is met.
+/// From `q` downhill on `relative`, joint by joint, to a pose where it is a little above [`LEAST_VOLUME`]; `None` if none is met soon.
 fn walk(q: &[f64], relative: &impl Fn(&[f64]) -> f64) -> Option<Vec<f64>> {
-    let (mut high, mut value) = (q.to_vec(), relative(q));
-    let mut step = 0.5;
-    while step > 1e-3 {
-        let mut moved = false;
+    /// Sweeps over all joints.
+    const SWEEPS: usize = 30;
+    /// A step that gains less is not worth taking.
+    const GAIN: f64 = 0.9;
+    let (mut high, mut value, mut step) = (q.to_vec(), relative(q), 0.5);
+    for _ in 0..SWEEPS {
+        let before = value;
         for joint in 0..q.len() {
             for along in [step, -step] {
                 let mut next = high.clone();
@@ -273,13 +276,13 @@ fn walk(q: &[f64], relative: &impl Fn(&[f64]) -> f64) -> Option<Vec<f64>> {
                 if at < LEAST_VOLUME {
                     return Some(between(&high, &next, relative));
                 }
-                if at < value {
-                    (high, value, moved) = (next, at, true);
+                if at < GAIN * value {
+                    (high, value) = (next, at);
                     break;
                 }
             }
         }
-        if !moved {
+        if value == before {
             step *= 0.5;
         }
     }

@@ -2,6 +2,7 @@
 
 use ulna::proof::{State, states};
 use ulna::{Model, SerialChain};
+use ulna_codegen::interpret::Exact;
 use ulna_codegen::{Generated, Interpreter, generate};
 
 use super::arms::Arm;
@@ -83,14 +84,20 @@ fn examine_model<const N: usize>(arm: &Arm, model: &Model, samples: usize) -> Ex
             return examination;
         }
     }
-    let run = caught(
-        || match (Interpreter::<N>::new(model), SerialChain::<N>::new(model)) {
-            (Ok(programs), Ok(chain)) => examination.run(arm, &programs, &chain, samples),
-            (Err(error), _) | (_, Err(error)) => {
+    let run = caught(|| {
+        match (
+            Interpreter::<N>::new(model),
+            SerialChain::<N>::new(model),
+            Exact::<N>::new(model),
+        ) {
+            (Ok(programs), Ok(chain), Ok(exact)) => {
+                examination.run(arm, &programs, &chain, &exact, samples);
+            }
+            (Err(error), ..) | (_, Err(error), _) | (.., Err(error)) => {
                 examination.fail("another number of joints", error.to_string());
             }
-        },
-    );
+        }
+    });
     if let Err(panic) = run {
         examination.fail(format!("a method panics: {panic}"), "");
     }
@@ -131,11 +138,12 @@ impl Examination {
         arm: &Arm,
         programs: &Interpreter<N>,
         chain: &SerialChain<N>,
+        exact: &Exact<N>,
         samples: usize,
     ) {
         let all = || states(chain).skip(arm.first_state);
         for (index, state) in all().take(STATES).enumerate() {
-            self.judge(programs, chain, state);
+            self.judge(programs, chain, exact, state);
             // Absurd coordinates need no more than one go.
             let states = if index == 0 {
                 special(state)
@@ -157,12 +165,13 @@ impl Examination {
         &mut self,
         programs: &Interpreter<N>,
         chain: &SerialChain<N>,
+        exact: &Exact<N>,
         state: State<N>,
     ) {
         let conditions = conditions(chain, &state.q);
-        for judgement in judge(programs, chain, state) {
+        for judgement in judge(programs, chain, exact, state) {
             let Judgement {
-                method,
+                ref method,
                 error,
                 allowed,
             } = judgement;
@@ -173,9 +182,9 @@ impl Examination {
                     conditions.jacobian,
                     state.q.as_slice()
                 );
-                self.fail(method, detail);
+                self.fail(method.clone(), detail);
             }
-            let worst = self.worst.map_or(0.0, |(worst, _)| worst.excess());
+            let worst = self.worst.as_ref().map_or(0.0, |(worst, _)| worst.excess());
             if judgement.excess() > worst {
                 self.worst = Some((judgement, conditions));
             }

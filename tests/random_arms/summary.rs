@@ -43,8 +43,8 @@ impl Summary {
             );
         }
         for failure in &examination.failures {
-            let judged = examination.worst.map(|(worst, _)| worst.method);
-            if judged != Some(&failure.kind) {
+            let judged = examination.worst.as_ref();
+            if judged.is_none_or(|(worst, _)| worst.method != failure.kind) {
                 excess = f64::INFINITY;
                 text += &format!("; {}", failure.kind);
             }
