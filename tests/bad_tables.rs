@@ -259,6 +259,28 @@ fn files() {
 }
 
 #[test]
+fn messages_are_short_however_long_the_table() {
+    let long = "x".repeat(200_000);
+    for (from, to) in [
+        ("name = \"planar_2r\"", format!("name = \"{long}\"")),
+        (
+            "convention = \"modified\"",
+            format!("convention = \"{long}\""),
+        ),
+        ("theta = 0.0", format!("theta = 0.0\n{long} = 1")),
+        ("theta = 0.0", format!("theta = \"{long}\"")),
+        ("theta = 0.0", format!("theta = 0.{long}")),
+        (
+            "theta = 0.0",
+            format!("theta = 0.0 # {long}\nthet = 1 # {long}"),
+        ),
+    ] {
+        let text = refused(&edited(from, &to)).to_string();
+        assert!(text.len() < 10_000, "{} bytes: {text:.1000}", text.len());
+    }
+}
+
+#[test]
 fn warnings_do_not_refuse() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rounded.toml");
