@@ -1,5 +1,6 @@
 //! Files, written whole or not at all.
 
+mod lock;
 mod target;
 
 use std::fs;
@@ -9,6 +10,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use tempfile::NamedTempFile;
 
+pub(crate) use lock::FolderLock;
 pub(crate) use target::{refuse_special, target};
 
 /// Writes `bytes` under another name first, so that the file at `path` is never half of them.
