@@ -245,8 +245,8 @@ fn sizes() {
     let scenario = parse(&edited(&most)).unwrap_or_else(|errors| panic!("{errors}"));
     assert_eq!(scenario.experiments.len(), 33);
     let slow = [
-        ("duration = 20.0", "duration = 1e4"),
-        ("cycle = 0.01", "cycle = 1"),
+        ("duration = 20.0", "duration = 1e5"),
+        ("cycle = 0.01", "cycle = 10"),
     ];
     parse(&edited(&slow)).unwrap_or_else(|errors| panic!("{errors}"));
     let messages = messages(&[
@@ -254,11 +254,19 @@ fn sizes() {
         ("[[experiment]]", &experiments(2_001)),
         ("[campaign]", &figures(101)),
         ("cycle = 0.01", "cycle = 0.0019"),
-        ("duration = 20.0", "duration = 10_001"),
+        ("duration = 20.0", "duration = 100_001"),
         ("cases = 10_000", "cases = 1_000_001"),
         ("failure_times = 20", "failure_times = 1_001"),
     ]);
     insta::assert_snapshot!(messages);
+    let tool = include_str!("../scenarios/tool_path.toml").replace("cycle = 0.1", "cycle = 10");
+    let lasting = |duration| parse(&tool.replace("duration = 10.0", duration));
+    assert!(lasting("duration = 1_000").is_ok());
+    let text = lasting("duration = 1_001").unwrap_err().to_string();
+    assert!(
+        text.contains("must be within 0.001 to 1000.0 s for a motion of the tool"),
+        "{text}"
+    );
 }
 
 #[test]

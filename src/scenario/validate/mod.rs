@@ -15,9 +15,8 @@ use crate::diagnostics::{Diagnostic, Sink};
 use crate::table::AngleUnit;
 use crate::toml_reader::{Bound, Located};
 
-/// A tool path keeps a knot of the joints' motion every 0.02 s.
 const DURATION: Bound = Bound {
-    range: 1e-3..=1e4,
+    range: 1e-3..=1e5,
     unit: "s",
     help: "times are in seconds",
 };
@@ -46,7 +45,8 @@ const STEP: Bound = Bound {
 /// The most control cycles in a motion: a search keeps each in memory, with all that a compensation is made of,
 /// and as many searches run at once as there are cores. For 7 joints that is 8 KB for each cycle and core.
 const MAX_CYCLES: f64 = 1e4;
-/// The most studies, experiments times failure times: the series and figures of all are in memory before any is written.
+/// The most studies, experiments times failure times: the series and figures of all are in memory before any is written,
+/// some 1 MB for each with 7 joints.
 const MAX_STUDIES: usize = 100;
 
 /// What the lists of a scenario are checked against.
