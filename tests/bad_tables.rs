@@ -259,6 +259,50 @@ fn files() {
 }
 
 #[test]
+#[cfg(unix)]
+fn what_is_no_regular_file_is_refused_and_not_waited_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe.toml");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    let socket = folder.path().join("socket.toml");
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).unwrap();
+    let link = folder.path().join("link.toml");
+    std::os::unix::fs::symlink(&pipe, &link).unwrap();
+    for path in [pipe.as_path(), &socket, &link, "/dev/zero".as_ref()] {
+        let table = Model::load(path).unwrap_err().to_string();
+        let scenario = ulna::Scenario::load(path, &[]).unwrap_err().to_string();
+        for text in [table, scenario] {
+            assert!(text.contains("is no regular file"), "{text}");
+            assert!(text.contains(path.to_str().unwrap()), "{text}");
+            assert!(text.contains("help: save the text in a file"), "{text}");
+        }
+    }
+}
+
+#[test]
+fn messages_are_short_however_long_the_table() {
+    let long = "x".repeat(200_000);
+    for (from, to) in [
+        ("name = \"planar_2r\"", format!("name = \"{long}\"")),
+        (
+            "convention = \"modified\"",
+            format!("convention = \"{long}\""),
+        ),
+        ("theta = 0.0", format!("theta = 0.0\n{long} = 1")),
+        ("theta = 0.0", format!("theta = \"{long}\"")),
+        ("theta = 0.0", format!("theta = 0.{long}")),
+        (
+            "theta = 0.0",
+            format!("theta = 0.0 # {long}\nthet = 1 # {long}"),
+        ),
+    ] {
+        let text = refused(&edited(from, &to)).to_string();
+        assert!(text.len() < 10_000, "{} bytes: {text:.1000}", text.len());
+    }
+}
+
+#[test]
 fn warnings_do_not_refuse() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rounded.toml");

@@ -218,6 +218,57 @@ fn times_and_steps() {
     insta::assert_snapshot!(messages);
 }
 
+/// What a scenario may ask for is bounded, so that no text fills the memory.
+#[test]
+fn sizes() {
+    let experiments = |count: usize| {
+        let more = (1..count).map(|i| {
+            format!(
+                "[[experiment]]\nsection = \"{i}\"\nforce = [0, 0, 0]\nrated_torque = \"none\"\n"
+            )
+        });
+        format!("{}\n[[experiment]]", more.collect::<String>())
+    };
+    let figures = |count: usize| {
+        let more = (4..count)
+            .map(|i| format!("[[experiment.figure]]\nname = \"f_{i}\"\nkind = \"impact\"\n"));
+        format!("{}\n[campaign]", more.collect::<String>())
+    };
+    // The scenario has three experiments, three times and four figures.
+    let most = [
+        ("[[experiment]]", &*experiments(31)),
+        ("[campaign]", &figures(100)),
+        ("cycle = 0.01", "cycle = 0.002"),
+        ("cases = 10_000", "cases = 1_000_000"),
+        ("failure_times = 20", "failure_times = 1_000"),
+    ];
+    let scenario = parse(&edited(&most)).unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!(scenario.experiments.len(), 33);
+    let slow = [
+        ("duration = 20.0", "duration = 1e5"),
+        ("cycle = 0.01", "cycle = 10"),
+    ];
+    parse(&edited(&slow)).unwrap_or_else(|errors| panic!("{errors}"));
+    let messages = messages(&[
+        ("[[experiment]]", &experiments(32)),
+        ("[[experiment]]", &experiments(2_001)),
+        ("[campaign]", &figures(101)),
+        ("cycle = 0.01", "cycle = 0.0019"),
+        ("duration = 20.0", "duration = 100_001"),
+        ("cases = 10_000", "cases = 1_000_001"),
+        ("failure_times = 20", "failure_times = 1_001"),
+    ]);
+    insta::assert_snapshot!(messages);
+    let tool = include_str!("../scenarios/tool_path.toml").replace("cycle = 0.1", "cycle = 10");
+    let lasting = |duration| parse(&tool.replace("duration = 10.0", duration));
+    assert!(lasting("duration = 1_000").is_ok());
+    let text = lasting("duration = 1_001").unwrap_err().to_string();
+    assert!(
+        text.contains("must be within 0.001 to 1000.0 s for a motion of the tool"),
+        "{text}"
+    );
+}
+
 #[test]
 fn sections_brakes_and_figures() {
     let messages = messages(&[

@@ -1,5 +1,6 @@
 //! What goes to stderr. Colours only on a terminal that wants them: `anstream` looks at it and at `NO_COLOR`.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use clap::builder::styling::{AnsiColor, Style};
@@ -25,12 +26,12 @@ pub(crate) fn load(path: &Path) -> Result<Model, TableErrors> {
 
 /// One error that is not about a place in a table.
 pub(crate) fn error(message: &str) {
-    anstream::eprintln!("{ERROR}error{ERROR:#}: {message}");
+    anstream::eprintln!("{ERROR}error{ERROR:#}: {}", plain(message));
 }
 
 /// One warning that is not about a place in a table.
 pub(crate) fn warning(message: &str) {
-    anstream::eprintln!("{WARNING}warning{WARNING:#}: {message}");
+    anstream::eprintln!("{WARNING}warning{WARNING:#}: {}", plain(message));
 }
 
 /// What the generator says of the arm whose table stands at `path`.
@@ -42,5 +43,18 @@ pub(crate) fn warnings(path: &Path, sentences: &[String]) {
 
 /// What has been done.
 pub(crate) fn note(message: &str) {
-    anstream::eprintln!("{message}");
+    anstream::eprintln!("{}", plain(message));
+}
+
+/// A message without what a terminal would obey: the name of a file in it may be anything.
+fn plain(message: &str) -> Cow<'_, str> {
+    let obeyed = |c: char| c.is_control() && c != '\n';
+    if !message.contains(obeyed) {
+        return message.into();
+    }
+    let parts = message.chars().map(|c| match c {
+        c if obeyed(c) => c.escape_debug().to_string(),
+        c => c.to_string(),
+    });
+    parts.collect()
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use clap::Args;
 
-use crate::output::write_whole;
+use crate::output::{refuse_special, write_whole};
 use crate::{Verdict, console};
 
 /// Emit the Rust code of an arm
@@ -17,7 +17,8 @@ use crate::{Verdict, console};
 pub(crate) struct Arguments {
     /// The arm's table (TOML)
     table: PathBuf,
-    /// The file to write, whole or not at all; without it the code goes to stdout
+    /// The file to write, whole or not at all; without it the code goes to stdout.
+    /// A symbolic link stays, and the file that it leads to is written; a device, pipe or socket is refused
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Write nothing; fail if the file is not what would be written
@@ -33,15 +34,13 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     match &arguments.output {
         None => out.write_all(code.as_bytes())?,
         Some(file) if arguments.check => check(file, &code, &arguments.table)?,
-        Some(file) => {
-            write_whole(file, code.as_bytes())
-                .with_context(|| format!("cannot write {}", file.display()))?;
-        }
+        Some(file) => write_whole(file, code.as_bytes())?,
     }
     Ok(Verdict::Pass)
 }
 
 fn check(file: &Path, code: &str, table: &Path) -> anyhow::Result<()> {
+    refuse_special(file)?;
     let old = fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
     if old == code.as_bytes() {
         return Ok(());

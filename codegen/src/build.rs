@@ -5,7 +5,6 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use ulna::diagnostics::Diagnostics;
 use ulna::{Model, TableErrors};
 
 use crate::generate;
@@ -73,9 +72,22 @@ impl fmt::Debug for Error {
 /// All errors of all tables at once, for `main` to return: cargo shows them and stops. Nothing is written then.
 pub fn compile_arms(tables: &[impl AsRef<Path>]) -> Result<(), Error> {
     for table in tables {
-        println!("cargo::rerun-if-changed={}", table.as_ref().display());
+        println!(
+            "cargo::rerun-if-changed={}",
+            watched(table.as_ref()).display()
+        );
     }
     compile_into_out_dir(tables).map(drop)
+}
+
+/// What cargo is told to watch for `table`: its folder if there is a line break in its name, because what follows one
+/// would be another instruction to cargo.
+fn watched(table: &Path) -> &Path {
+    let one_line = |path: &&Path| !path.to_string_lossy().contains(['\n', '\r']);
+    match table.ancestors().find(one_line) {
+        Some(path) if !path.as_os_str().is_empty() => path,
+        _ => Path::new("."),
+    }
 }
 
 /// [`compile_arms`] for every table of a folder, in alphabetical order, and `$OUT_DIR/arms.rs` over them:
@@ -87,7 +99,7 @@ pub fn compile_arms(tables: &[impl AsRef<Path>]) -> Result<(), Error> {
 /// As [`compile_arms`], and if the folder cannot be read.
 pub fn compile_folder(folder: impl AsRef<Path>) -> Result<(), Error> {
     let folder = folder.as_ref();
-    println!("cargo::rerun-if-changed={}", folder.display());
+    println!("cargo::rerun-if-changed={}", watched(folder).display());
     let models = compile_into_out_dir(&tables_of(folder)?)?;
     write_to_out_dir("arms", &list(&models))
 }
@@ -133,7 +145,7 @@ fn compile_into_out_dir(tables: &[impl AsRef<Path>]) -> Result<Vec<Model>, Error
     for (path, model) in &models {
         let generated = generate(model, &path.display().to_string());
         for sentence in generated.warnings() {
-            println!("cargo::warning={}: {sentence}", path.display());
+            warn(&format!("{}: {sentence}", path.display()));
         }
         write_to_out_dir(&model.name, &generated.source())?;
     }
@@ -150,12 +162,10 @@ fn write_to_out_dir(name: &str, text: &str) -> Result<(), Error> {
         .map_err(|source| Error::Write { path, source })
 }
 
-/// What is allowed in a table but rarely meant, line by line as cargo wants it.
-fn warn(found: &Diagnostics) {
-    if !found.is_empty() {
-        for line in found.to_string().lines() {
-            println!("cargo::warning={line}");
-        }
+/// A warning, line by line as cargo wants it.
+fn warn(text: &str) {
+    for line in text.lines() {
+        println!("cargo::warning={line}");
     }
 }
 
@@ -165,7 +175,9 @@ fn load_all(tables: &[impl AsRef<Path>]) -> Result<Vec<(&Path, Model)>, Error> {
     for table in tables.iter().map(AsRef::as_ref) {
         match Model::lint(table) {
             Ok((model, found)) => {
-                warn(&found);
+                if !found.is_empty() {
+                    warn(&found.to_string());
+                }
                 models.push((table, model));
             }
             Err(error) => errors.push(error),
@@ -199,6 +211,17 @@ mod tests {
         let error = load_all(&[table, "../arms/ssrms.toml", table]).unwrap_err();
         assert!(matches!(&error, Error::SameType { name, .. } if name == "Planar2r"));
         assert!(error.to_string().contains("rename one of the arms"));
+    }
+
+    #[test]
+    fn no_path_is_an_instruction_to_cargo() {
+        let watched = |path| watched(Path::new(path));
+        assert_eq!(watched("arms/a.toml"), Path::new("arms/a.toml"));
+        assert_eq!(
+            watched("arms/a\ncargo::rustc-cfg=b.toml"),
+            Path::new("arms")
+        );
+        assert_eq!(watched("a\rb.toml"), Path::new("."));
     }
 
     #[test]

@@ -36,6 +36,42 @@ fn the_planar_arm_in_full() {
 }
 
 #[test]
+fn no_name_of_a_file_ends_the_comment_that_it_stands_in() {
+    let names = [
+        "a\nfn b() {}\n.toml",
+        "a\r\nb.toml",
+        "a\rb.toml",
+        "a\u{85}b\u{2028}c\u{2029}.toml",
+        "a\u{202e}b\u{2066}.toml",
+        "a\\nb.toml",
+        "it's \"\u{e9}\".toml",
+    ];
+    let model = load("planar_2r");
+    let plain = generate(&model, "plain.toml").source();
+    let firsts = names.map(|name| {
+        let code = generate(&model, name).source();
+        let (first, rest) = code.split_once('\n').unwrap();
+        assert_eq!(Some(rest), plain.split_once('\n').map(|(_, rest)| rest));
+        let (_, name) = first.split_once(" from ").unwrap();
+        name.strip_suffix(": do not edit, generate again.")
+            .unwrap()
+            .to_owned()
+    });
+    assert_eq!(
+        firsts,
+        [
+            r"a\nfn b() {}\n.toml",
+            r"a\r\nb.toml",
+            r"a\rb.toml",
+            r"a\u{85}b\u{2028}c\u{2029}.toml",
+            r"a\u{202e}b\u{2066}.toml",
+            r"a\\nb.toml",
+            "it's \"\u{e9}\".toml",
+        ]
+    );
+}
+
+#[test]
 fn operations_of_every_arm() {
     let mut table = String::new();
     for path in arms() {

@@ -1,6 +1,6 @@
 //! The text of a file, or why there is none.
 
-use std::fs::File;
+use std::fs::{File, metadata};
 use std::io::Read;
 use std::path::Path;
 
@@ -16,12 +16,20 @@ pub(crate) fn read_file(folder: &Path, path: &Path, max_bytes: u64) -> Result<St
         let error = help.into_iter().fold(error, Diagnostic::help);
         Diagnostics::of_file(&name, error)
     };
-    if file.is_dir() {
-        let help = format!("name a file in it, such as {name}/my.toml");
-        return Err(refuse(
-            "this is a directory, not a file".to_owned(),
-            Some(help),
-        ));
+    // Asked of the path: to open a pipe is to wait for its writer, and a device may have no end.
+    match metadata(&file) {
+        Ok(found) if found.is_dir() => {
+            let help = format!("name a file in it, such as {name}/my.toml");
+            let message = "this is a directory, not a file".to_owned();
+            return Err(refuse(message, Some(help)));
+        }
+        Ok(found) if !found.is_file() => {
+            let help = "save the text in a file, and name that".to_owned();
+            let message = "this is no regular file, but a pipe, a socket or a device".to_owned();
+            return Err(refuse(message, Some(help)));
+        }
+        // Why there is none, opening it says.
+        _ => {}
     }
     let mut bytes = Vec::new();
     File::open(&file)

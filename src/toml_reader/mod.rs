@@ -143,6 +143,11 @@ pub(crate) fn closest<'w, W: AsRef<str> + ?Sized + 'w>(
     misspelt: &str,
     words: impl IntoIterator<Item = &'w W>,
 ) -> Option<&'w W> {
+    /// Longer words are no slip of the pen, and comparing takes the product of the lengths.
+    const LONGEST: usize = 256;
+    if misspelt.len() > LONGEST {
+        return None;
+    }
     let misspelt = misspelt.to_lowercase();
     words
         .into_iter()

@@ -1,134 +1,122 @@
 //! `campaign.csv`: grows as `campaign.csv.partial`, and gets its name when it is whole.
+//!
+//! After each addition `campaign.json` says how far the rows are good. What stands behind that, as after a loss of power,
+//! is made again; before it no byte may have changed.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
-use serde::{Deserialize, Serialize};
-use ulna::experiment::CampaignCase;
 
-/// One case. Norms over the healthy joints, N m (N); forces in N; `None` where there is no outcome.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub(crate) struct Row {
-    pub(crate) case: u64,
-    /// Counted from 1.
-    pub(crate) failed_joint: usize,
-    pub(crate) failure_time: f64,
-    pub(crate) before: Option<f64>,
-    pub(crate) eq16: Option<f64>,
-    pub(crate) eq20: Option<f64>,
-    pub(crate) optimal: Option<f64>,
-    pub(crate) eq16_force_error: Option<f64>,
-    pub(crate) locked_before: Option<f64>,
-    pub(crate) status: String,
-}
-
-/// A case as a row.
-pub(super) fn row(case: &CampaignCase) -> Row {
-    let outcome = case.outcome.as_ref().ok();
-    Row {
-        case: case.index,
-        failed_joint: case.failed_joint + 1,
-        failure_time: case.failure_time,
-        before: outcome.map(|outcome| outcome.before),
-        eq16: outcome.map(|outcome| outcome.per_joint),
-        eq20: outcome.map(|outcome| outcome.projected),
-        optimal: outcome.map(|outcome| outcome.optimal),
-        eq16_force_error: outcome.map(|outcome| outcome.per_joint_force_error),
-        locked_before: outcome.map(|outcome| outcome.locked_before),
-        status: match &case.outcome {
-            Ok(_) => "ok".to_owned(),
-            Err(error) => error.to_string(),
-        },
-    }
-}
+use super::record::{Identity, Record, Recorder, remedy};
+use super::row::{self, Row};
+use crate::output::{target, write_whole};
 
 /// The file under way, or complete.
 pub(super) struct CampaignFile {
     whole: PathBuf,
     partial: PathBuf,
-    text: String,
-    rows: u64,
+    recorder: Recorder,
+    rows: Vec<Row>,
     cases: u64,
     complete: bool,
 }
 
 impl CampaignFile {
-    /// Takes up what is in `folder`. Some of the rows there are made again with `remake`: a file of another campaign is refused.
+    /// Takes up what is in `folder`: rows of another campaign, or of none, are refused.
+    /// Some of them are made again with `remake`, because a program may change without its version.
     pub(super) fn open(
         folder: &Path,
         cases: u64,
+        identity: &Identity,
         remake: impl Fn(u64) -> Row,
     ) -> anyhow::Result<Self> {
-        let whole = folder.join("campaign.csv");
-        let partial = folder.join("campaign.csv.partial");
+        // Beside what it becomes, wherever a link leads.
+        let whole = target(&folder.join("campaign.csv"))?;
+        let partial = target(&whole.with_extension("csv.partial"))?;
         let mut file = Self {
-            text: header()?,
-            rows: 0,
-            complete: false,
             whole,
             partial,
+            recorder: Recorder::new(folder, identity.clone()),
+            rows: Vec::new(),
             cases,
+            complete: false,
         };
-        for (path, complete) in [(file.whole.clone(), true), (file.partial.clone(), false)] {
-            if path.exists() {
-                let text = fs::read_to_string(&path)
-                    .with_context(|| format!("cannot read {}", path.display()))?;
-                file.take_up(&text, &path, remake)?;
-                file.complete = complete && file.rows >= cases;
-                break;
-            }
-        }
+        // A whole file that is being continued is whole still, but the other has more rows.
+        let paths = [file.partial.clone(), file.whole.clone()];
+        let Some(path) = paths.iter().find(|path| path.exists()) else {
+            let header = row::header()?;
+            file.recorder.add(header.as_bytes(), 0);
+            // In this order: rows without their record would be refused.
+            file.recorder.write()?;
+            write_whole(&file.partial, header.as_bytes())?;
+            return Ok(file);
+        };
+        let text = file.take_up(path, folder, identity, remake)?;
+        file.complete = *path == file.whole && file.rows() >= cases;
         if !file.complete {
-            // Without what was cut off in the middle of a row.
-            fs::write(&file.partial, &file.text)
-                .with_context(|| format!("cannot write {}", file.partial.display()))?;
+            // Without what was added and not recorded.
+            write_whole(&file.partial, &text)?;
         }
         Ok(file)
     }
 
+    /// Reads the rows at `path`, and returns what of the file is good.
     fn take_up(
         &mut self,
-        text: &str,
         path: &Path,
+        folder: &Path,
+        identity: &Identity,
         remake: impl Fn(u64) -> Row,
-    ) -> anyhow::Result<()> {
-        let header = header()?;
-        let Some(body) = text.strip_prefix(&header) else {
-            // Cut off in its first line, it holds nothing yet.
-            if header.starts_with(text) {
-                return Ok(());
-            }
+    ) -> anyhow::Result<Vec<u8>> {
+        let mut text = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
+        if !text.starts_with(row::header()?.as_bytes()) {
             bail!(
                 "{} is no file of a campaign; choose another --output",
                 path.display()
             );
-        };
-        let lines: Vec<_> = body
-            .split_inclusive('\n')
-            .filter(|line| line.ends_with('\n'))
-            .collect();
-        let count = lines.len();
-        for index in [0, count / 3, count / 2, count.saturating_sub(1)] {
-            let Some(line) = lines.get(index) else {
+        }
+        let record = Record::read(folder, path, identity)?;
+        let changed = || format!("{} has been changed; {}", path.display(), remedy());
+        let recorded = usize::try_from(record.bytes).unwrap_or(usize::MAX);
+        // Only the file under way has more in it than is recorded.
+        if text.len() < recorded || (*path == self.whole && text.len() > recorded) {
+            bail!(changed());
+        }
+        text.truncate(recorded);
+        let rows = Some(&text).filter(|text| record.is_of(text));
+        let rows = rows
+            .and_then(|text| row::read(text))
+            .with_context(changed)?;
+        if rows.len() as u64 != record.rows {
+            bail!(changed());
+        }
+        for index in [
+            0,
+            rows.len() / 3,
+            rows.len() / 2,
+            rows.len().saturating_sub(1),
+        ] {
+            let Some(row) = rows.get(index) else {
                 continue;
             };
-            if *line != csv_text(&[remake(index as u64)])? {
+            if row::lines(&[remake(index as u64)])? != row::lines(std::slice::from_ref(row))? {
                 bail!(
-                    "case {index} of {} is not this campaign's; remove the file, or choose another --output",
-                    path.display()
+                    "case {index} of {} comes out otherwise by this program; {}",
+                    path.display(),
+                    remedy()
                 );
             }
         }
-        self.rows = count as u64;
-        self.text = header + &lines.concat();
-        Ok(())
+        self.recorder.add(&text, record.rows);
+        self.rows = rows;
+        Ok(text)
     }
 
     /// How many cases are in it.
     pub(super) fn rows(&self) -> u64 {
-        self.rows.min(self.cases)
+        self.cases.min(self.rows.len() as u64)
     }
 
     /// Where it is, or will be.
@@ -137,52 +125,28 @@ impl CampaignFile {
     }
 
     /// Adds the next cases.
-    pub(super) fn append(&mut self, rows: &[Row]) -> anyhow::Result<()> {
-        let text = csv_text(rows)?;
+    pub(super) fn append(&mut self, rows: Vec<Row>) -> anyhow::Result<()> {
+        let text = row::lines(&rows)?;
         let opened = OpenOptions::new().append(true).open(&self.partial);
-        let written = opened.and_then(|mut file: File| file.write_all(text.as_bytes()));
+        let written = opened.and_then(|mut file| {
+            file.write_all(text.as_bytes())?;
+            // On the disk before the record that vouches for them.
+            file.sync_data()
+        });
         written.with_context(|| format!("cannot write {}", self.partial.display()))?;
-        self.text += &text;
-        self.rows += rows.len() as u64;
+        self.recorder.add(text.as_bytes(), rows.len() as u64);
+        self.recorder.write()?;
+        self.rows.extend(rows);
         Ok(())
     }
 
-    /// Gives the file its name, and all its rows.
-    pub(super) fn finish(self) -> anyhow::Result<Vec<Row>> {
+    /// Gives the file its name, and returns the rows that were asked for.
+    pub(super) fn finish(mut self) -> anyhow::Result<Vec<Row>> {
         if !self.complete {
             fs::rename(&self.partial, &self.whole)
                 .with_context(|| format!("cannot write {}", self.whole.display()))?;
         }
-        let mut reader = csv::Reader::from_reader(self.text.as_bytes());
-        let rows = reader.deserialize().take(self.cases as usize);
-        rows.collect::<Result<_, _>>()
-            .with_context(|| format!("{} cannot be read", self.whole.display()))
+        self.rows.truncate(self.rows().try_into()?);
+        Ok(self.rows)
     }
-}
-
-fn header() -> anyhow::Result<String> {
-    let mut csv = csv::Writer::from_writer(Vec::new());
-    csv.write_record([
-        "case",
-        "failed_joint",
-        "failure_time",
-        "before",
-        "eq16",
-        "eq20",
-        "optimal",
-        "eq16_force_error",
-        "locked_before",
-        "status",
-    ])?;
-    Ok(String::from_utf8(csv.into_inner()?)?)
-}
-
-fn csv_text(rows: &[Row]) -> anyhow::Result<String> {
-    let mut csv = csv::WriterBuilder::new()
-        .has_headers(false)
-        .from_writer(Vec::new());
-    for row in rows {
-        csv.serialize(row)?;
-    }
-    Ok(String::from_utf8(csv.into_inner()?)?)
 }

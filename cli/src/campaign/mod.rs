@@ -1,6 +1,8 @@
 //! `ulna campaign`: a scenario with every joint failing at many times, varied at random.
 
 mod file;
+mod record;
+mod row;
 
 use std::fs;
 use std::io::Write;
@@ -16,22 +18,25 @@ use ulna::{Arm, Scenario};
 
 use crate::arms::{ForArm, GENERATED, with_arm};
 use crate::figures::{self, HeatMap};
-use crate::output::{self, Files};
+use crate::output::{self, Files, FolderLock};
 use crate::{Verdict, console};
-pub(crate) use file::Row;
-use file::{CampaignFile, row};
+use file::CampaignFile;
+use record::Identity;
+pub(crate) use row::Row;
 
 /// Vary a scenario: every joint, a grid of failure times, random starts, goals and forces
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  ulna campaign scenarios/paper_like.toml --cases 140 --output target/campaign\n\n\
-    Interrupted, it goes on where it stopped when it is called again. The result does not depend on the number of threads."
+    Interrupted, it goes on where it stopped when it is called again. The result does not depend on the number of threads.\n\
+    campaign.json beside the rows says which campaign they are of: those of another, and rows that were changed, are refused.\n\
+    One run at a time works in a folder: it holds campaign.lock, which stays and is in nobody's way."
 )]
 pub(crate) struct Arguments {
     /// The scenario (TOML); its first experiment's rated torques are kept
     scenario: PathBuf,
     /// How many cases; without it as many as the scenario says
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     cases: Option<u64>,
     /// The seed of all random numbers; without it the scenario's
     #[arg(long, value_name = "SEED")]
@@ -58,7 +63,8 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         scenario: &scenario,
         arguments,
     };
-    let rows = pool.install(|| with_arm(&scenario.arm, work))??;
+    // Held until the figures are there too.
+    let (rows, _lock) = pool.install(|| with_arm(&scenario.arm, work))??;
 
     let map = HeatMap::new(&rows, scenario.arm.joints().len());
     writeln!(out, "{}", map.summary(&scenario))?;
@@ -71,14 +77,14 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     Ok(Verdict::Pass)
 }
 
-/// All rows of the campaign, found in the file or made.
+/// All rows of the campaign, found in the file or made, and the folder that they are in.
 struct Work<'s> {
     scenario: &'s Scenario,
     arguments: &'s Arguments,
 }
 
 impl ForArm for Work<'_> {
-    type Output = anyhow::Result<Vec<Row>>;
+    type Output = anyhow::Result<(Vec<Row>, FolderLock)>;
 
     fn run<A: Arm<N> + Sync, const N: usize>(self, arm: &A) -> Self::Output {
         /// So many cases are made before they are written.
@@ -87,8 +93,11 @@ impl ForArm for Work<'_> {
         let folder = &self.arguments.output;
         fs::create_dir_all(folder)
             .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+        let lock = FolderLock::take(folder)?;
         let cases = self.scenario.campaign.cases;
-        let mut file = CampaignFile::open(folder, cases, |index| row(&campaign.case(index)))?;
+        let identity = Identity::of(self.scenario);
+        let make = |index| Row::of(&campaign.case(index));
+        let mut file = CampaignFile::open(folder, cases, &identity, make)?;
         let found = file.rows();
         if found > 0 {
             console::note(&format!(
@@ -105,11 +114,11 @@ impl ForArm for Work<'_> {
             let chunk = start..(start + CHUNK).min(cases);
             // In order of the number, whatever thread made them.
             let rows = chunk.into_par_iter().map(|index| {
-                let row = row(&campaign.case(index));
+                let row = make(index);
                 bar.inc(1);
                 row
             });
-            file.append(&rows.collect::<Vec<_>>())?;
+            file.append(rows.collect())?;
         }
         bar.finish_and_clear();
         let made = cases - found;
@@ -120,6 +129,6 @@ impl ForArm for Work<'_> {
                 made as f64 / seconds
             ));
         }
-        file.finish()
+        Ok((file.finish()?, lock))
     }
 }

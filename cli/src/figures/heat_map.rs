@@ -1,5 +1,7 @@
 //! The impact over joint and failure time, before and after: the picture of a campaign.
 
+use std::cmp::Ordering;
+
 use plotters::element::{Rectangle, Text};
 use plotters::prelude::DrawingBackend;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
@@ -24,7 +26,8 @@ const PANELS: [(&str, Quantity); 4] = [
 
 /// Medians over the cases of each joint and failure time.
 pub(crate) struct HeatMap<'r> {
-    rows: &'r [Row],
+    /// By joint, and then by failure time.
+    rows: Vec<&'r Row>,
     joints: usize,
     /// Ascending.
     times: Vec<f64>,
@@ -36,6 +39,8 @@ impl<'r> HeatMap<'r> {
         let mut times: Vec<_> = rows.iter().map(|row| row.failure_time).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
+        let mut rows: Vec<_> = rows.iter().collect();
+        rows.sort_by(|a, b| order(a, b.failed_joint, b.failure_time));
         Self {
             rows,
             joints,
@@ -65,9 +70,10 @@ impl<'r> HeatMap<'r> {
             ),
         ];
         for joint in 1..=self.joints {
-            let of_joint = |row: &&Row| row.failed_joint == joint;
+            let of_joint = |row: &&&Row| row.failed_joint == joint;
             let cells = PANELS.map(|(_, quantity)| {
-                let values = self.rows.iter().filter(of_joint).filter_map(quantity);
+                let values = self.rows.iter().filter(of_joint);
+                let values = values.filter_map(|row| quantity(row));
                 median(values.collect()).map_or_else(String::new, |median| format!("{median:.3}"))
             });
             let [before, eq16, eq20, optimal] = cells;
@@ -79,8 +85,12 @@ impl<'r> HeatMap<'r> {
     }
 
     fn cell(&self, joint: usize, time: f64, quantity: Quantity) -> Option<f64> {
-        let here = |row: &&Row| row.failed_joint == joint && row.failure_time == time;
-        median(self.rows.iter().filter(here).filter_map(quantity).collect())
+        let first = |past: Ordering| {
+            self.rows
+                .partition_point(|row| order(row, joint, time) < past)
+        };
+        let here = &self.rows[first(Ordering::Equal)..first(Ordering::Greater)];
+        median(here.iter().filter_map(|row| quantity(row)).collect())
     }
 
     /// The ends of the colour scale, powers of ten: four decades up to the largest median without suppression.
@@ -95,6 +105,12 @@ impl<'r> HeatMap<'r> {
         let most = cells.fold(1e-6, f64::max).log10().ceil();
         (most - 4.0, most)
     }
+}
+
+/// How a row stands to those of a joint and a failure time.
+fn order(row: &Row, joint: usize, time: f64) -> Ordering {
+    let joints = row.failed_joint.cmp(&joint);
+    joints.then(row.failure_time.total_cmp(&time))
 }
 
 fn median(mut values: Vec<f64>) -> Option<f64> {

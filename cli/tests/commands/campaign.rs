@@ -1,10 +1,13 @@
 //! `ulna campaign`.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
 
+#[cfg(unix)]
+use crate::support::{at, make_pipe};
 use crate::support::{stderr, stdout, ulna};
 
 const CASES: &str = "60";
@@ -40,8 +43,7 @@ fn the_file_does_not_depend_on_the_number_of_threads() {
         assert!(number(6) <= number(5) * (1.0 + 1e-9), "{row}");
         assert!(number(5) <= number(3) * (1.0 + 1e-9), "{row}");
     }
-    let befores: std::collections::BTreeSet<_> =
-        rows.iter().map(|row| row.split(',').nth(3)).collect();
+    let befores: BTreeSet<_> = rows.iter().map(|row| row.split(',').nth(3)).collect();
     assert_eq!(befores.len(), 60);
     for kind in ["svg", "png"] {
         assert!(one.join(format!("figures/campaign.{kind}")).exists());
@@ -58,63 +60,254 @@ fn the_file_does_not_depend_on_the_number_of_threads() {
 fn an_interrupted_file_is_continued_and_a_whole_one_left() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path();
+    let partial = output.join("campaign.csv.partial");
+    campaign(output, &["--cases", "70"]).code(0);
+    let all = csv(output);
+    for name in ["campaign.csv", "campaign.json"] {
+        fs::remove_file(output.join(name)).unwrap();
+    }
     campaign(output, &["--cases", CASES]).code(0);
     let whole = csv(output);
-    // Cut off in the middle of a row, as by a loss of power.
+    assert!(all.starts_with(&whole));
+    // Killed while rows were added: what is behind the record is cut off somewhere, and may be anything.
+    for tail in [
+        &all[whole.len()..all.len() - 200],
+        "59,2,0.5,1\n",
+        "\0\0\0\0",
+        "",
+    ] {
+        let _ = fs::remove_file(output.join("campaign.csv"));
+        fs::write(&partial, format!("{whole}{tail}")).unwrap();
+        let record = fs::read(output.join("campaign.json")).unwrap();
+        let err = stderr(&campaign(output, &["--cases", "70"]).code(0));
+        assert!(err.contains("60 of 70 cases are in"), "{err}");
+        assert!(err.contains("10 cases in "), "{err}");
+        assert_eq!(csv(output), all);
+        assert!(!partial.exists());
+        fs::write(output.join("campaign.json"), record).unwrap();
+    }
+    // A record without rows is that of none.
     fs::remove_file(output.join("campaign.csv")).unwrap();
-    let cut = &whole[..whole.len() / 2];
-    fs::write(output.join("campaign.csv.partial"), cut).unwrap();
-    let run = campaign(output, &["--cases", CASES]).code(0);
-    let kept = cut.lines().count() - 2;
-    let err = stderr(&run);
-    assert!(err.contains(&format!("{kept} of 60 cases are in")), "{err}");
-    assert!(err.contains(&format!("{} cases in ", 60 - kept)), "{err}");
+    campaign(output, &["--cases", CASES]).code(0);
     assert_eq!(csv(output), whole);
-    assert!(!output.join("campaign.csv.partial").exists());
 
-    let modified = fs::metadata(output.join("campaign.csv"))
-        .unwrap()
-        .modified()
-        .unwrap();
+    let modified = || {
+        let modified = |name| fs::metadata(output.join(name)).unwrap().modified().unwrap();
+        ["campaign.csv", "campaign.json"].map(modified)
+    };
+    let before = modified();
     let err = stderr(&campaign(output, &["--cases", CASES]).code(0));
     assert!(
         err.contains("60 of 60 cases are in") && !err.contains(" a second"),
         "{err}"
     );
-    assert_eq!(
-        fs::metadata(output.join("campaign.csv"))
-            .unwrap()
-            .modified()
-            .unwrap(),
-        modified
-    );
+    assert_eq!(modified(), before);
 
     // More cases go on from there; those that are there stay as they are.
     campaign(output, &["--cases", "70"]).code(0);
-    assert!(csv(output).starts_with(&whole));
-    assert_eq!(csv(output).lines().count(), 71);
+    assert_eq!(csv(output), all);
+    // Fewer are read, and no row is lost.
+    let out = stdout(&campaign(output, &["--cases", "10"]).code(0));
+    assert!(out.contains(", 10 cases, "), "{out}");
+    assert_eq!(csv(output), all);
 }
 
 #[test]
 fn another_campaigns_file_is_refused_and_left() {
     let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    campaign(&output, &["--cases", "10"]).code(0);
+    let before = csv(&output);
+    let refused = |arguments: &[&str], message: &str| {
+        let err = stderr(&campaign(&output, arguments).code(1).stdout(""));
+        assert!(err.contains(message), "{message} is missing in:\n{err}");
+        assert!(err.contains("choose another --output"), "{err}");
+    };
+    refused(
+        &["--cases", "20", "--seed", "7"],
+        "campaign.csv has the seed 2026, not 7; remove it",
+    );
+    // A case that is made again comes out alike by most of such changes.
+    let scenario = folder.path().join("other.toml");
+    for (from, to) in [
+        ("goal = [1.474", "goal = [1.475"),
+        ("force_spread = 20.0", "force_spread = 20.1"),
+        ("rated_torque = \"none\"", "rated_torque = 1e6"),
+        ("failure_times = 20 ", "failure_times = 21 "),
+        ("arm = \"ssrms\"", "arm = \"my_arm.toml\""),
+    ] {
+        let text = include_str!("../../../scenarios/paper_like.toml");
+        assert!(text.contains(from), "{from}");
+        fs::write(&scenario, text.replacen(from, to, 1)).unwrap();
+        let arm = include_str!("../../../arms/ssrms.toml");
+        fs::write(folder.path().join("my_arm.toml"), arm).unwrap();
+        let [scenario, output] = [&scenario, &output].map(|path| path.to_str().unwrap());
+        let run = ulna(&["campaign", scenario, "--output", output, "--cases", "20"]);
+        let err = stderr(&run.code(1).stdout(""));
+        assert!(
+            err.contains("is of another scenario or another arm; remove it"),
+            "{to}: {err}"
+        );
+    }
+    assert_eq!(csv(&output), before);
+
+    let record = output.join("campaign.json");
+    let text = fs::read_to_string(&record).unwrap();
+    let older = text.replace("\"ulna ", "\"ulna 0.0.0-");
+    assert_ne!(older, text);
+    fs::write(&record, older).unwrap();
+    refused(&["--cases", "20"], "campaign.csv was made by ulna 0.0.0-");
+    fs::write(&record, "{}").unwrap();
+    refused(
+        &["--cases", "20"],
+        "campaign.json is no record of one; remove it",
+    );
+    fs::remove_file(&record).unwrap();
+    refused(
+        &["--cases", "20"],
+        "campaign.json is not there or cannot be read; remove it",
+    );
+    assert_eq!(csv(&output), before);
+    fs::write(output.join("campaign.csv"), "time,torque\n1,2\n").unwrap();
+    refused(&["--cases", "10"], "is no file of a campaign");
+    assert_eq!(csv(&output), "time,torque\n1,2\n");
+}
+
+#[test]
+fn a_changed_row_is_found_wherever_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path();
+    campaign(output, &["--cases", "20"]).code(0);
+    let whole = csv(output);
+    let lines: Vec<_> = whole.split_inclusive('\n').collect();
+    let changed = |edit: &dyn Fn(&mut Vec<String>)| {
+        let mut lines: Vec<_> = lines.iter().map(ToString::to_string).collect();
+        edit(&mut lines);
+        lines.concat()
+    };
+    let mut texts = vec![
+        changed(&|lines| lines.swap(5, 6)),
+        changed(&|lines| drop(lines.remove(9))),
+        changed(&|lines| lines.push(lines[20].clone())),
+        changed(&|lines| lines[12] = "not a row\n".to_owned()),
+        whole[..whole.len() / 2].to_owned(),
+    ];
+    // One digit of each row.
+    texts.extend((1..=20).map(|row| {
+        changed(&|lines| {
+            let digit = lines[row].rfind(|c: char| c.is_ascii_digit()).unwrap();
+            let other = if &lines[row][digit..=digit] == "1" {
+                "2"
+            } else {
+                "1"
+            };
+            lines[row].replace_range(digit..=digit, other);
+        })
+    }));
+    for text in texts {
+        fs::write(output.join("campaign.csv"), &text).unwrap();
+        let err = stderr(&campaign(output, &["--cases", "20"]).code(1).stdout(""));
+        assert!(
+            err.contains("campaign.csv has been changed; remove it, or choose"),
+            "{err}"
+        );
+        assert_eq!(csv(output), text);
+    }
+    // In the file under way as well.
+    fs::remove_file(output.join("campaign.csv")).unwrap();
+    let partial = output.join("campaign.csv.partial");
+    fs::write(&partial, changed(&|lines| lines.swap(5, 6))).unwrap();
+    let err = stderr(&campaign(output, &["--cases", "30"]).code(1).stdout(""));
+    assert!(
+        err.contains("campaign.csv.partial has been changed"),
+        "{err}"
+    );
+}
+
+#[test]
+fn one_run_at_a_time_works_in_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
     let output = folder.path();
     campaign(output, &["--cases", "10"]).code(0);
     let before = csv(output);
-    let err = stderr(
-        &campaign(output, &["--cases", "20", "--seed", "7"])
-            .code(1)
-            .stdout(""),
-    );
+    let lock = output.join("campaign.lock");
+    // The file alone is in nobody's way.
+    let held = fs::File::options()
+        .read(true)
+        .write(true)
+        .open(&lock)
+        .unwrap();
+    held.try_lock().unwrap();
+    fs::write(&lock, "4711\n").unwrap();
+    let err = stderr(&campaign(output, &["--cases", "20"]).code(1).stdout(""));
+    let message = "error: process 4711 makes a campaign in ";
+    assert!(err.starts_with(message), "{err}");
     assert!(
-        err.contains("error: case 0 of") && err.contains("choose another --output"),
+        err.contains("wait for its end, or choose another --output"),
         "{err}"
     );
     assert_eq!(csv(output), before);
-    fs::write(output.join("campaign.csv"), "time,torque\n1,2\n").unwrap();
-    let err = stderr(&campaign(output, &["--cases", "10"]).code(1));
-    assert!(err.contains("is no file of a campaign"), "{err}");
-    assert_eq!(csv(output), "time,torque\n1,2\n");
+    drop(held);
+    campaign(output, &["--cases", "20"]).code(0);
+}
+
+/// Two at once: whichever comes second is refused, or has come late enough to find all rows.
+#[test]
+fn two_runs_at_once_do_not_mix_their_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path();
+    let runs = std::thread::scope(|scope| {
+        let run = || campaign(output, &["--cases", CASES]);
+        let runs = [scope.spawn(run), scope.spawn(run)];
+        runs.map(|run| run.join().unwrap())
+    });
+    let codes: BTreeSet<_> = runs
+        .iter()
+        .map(|run| run.get_output().status.code())
+        .collect();
+    assert!(codes.contains(&Some(0)), "{codes:?}");
+    for run in &runs {
+        let err = stderr(run);
+        let said = err.contains("makes a campaign in ");
+        assert_eq!(
+            run.get_output().status.code(),
+            Some(i32::from(said)),
+            "{err}"
+        );
+    }
+    let alone = folder.path().join("alone");
+    campaign(&alone, &["--cases", CASES]).code(0);
+    assert_eq!(csv(output), csv(&alone));
+}
+
+#[test]
+#[cfg(unix)]
+fn links_and_pipes_in_the_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let [output, store] = ["out", "store"].map(|name| folder.path().join(name));
+    for folder in [&output, &store] {
+        fs::create_dir(folder).unwrap();
+    }
+    // The rows are where the link leads.
+    std::os::unix::fs::symlink("../store/rows.csv", output.join("campaign.csv")).unwrap();
+    campaign(&output, &["--cases", "10"]).code(0);
+    assert_eq!(at(&output.join("campaign.csv")), "../store/rows.csv");
+    assert_eq!(at(&store), "rows.csv");
+    for name in [
+        "campaign.csv",
+        "campaign.csv.partial",
+        "campaign.json",
+        "campaign.lock",
+    ] {
+        let output = folder.path().join(name);
+        fs::create_dir(&output).unwrap();
+        make_pipe(&output.join(name));
+        let err = stderr(&campaign(&output, &["--cases", "10"]).code(1).stdout(""));
+        assert!(
+            err.contains("it is a pipe, no regular file"),
+            "{name}: {err}"
+        );
+    }
 }
 
 #[test]
@@ -122,6 +315,7 @@ fn a_wrong_command_line_exits_with_2() {
     for arguments in [
         &["campaign"][..],
         &["campaign", "x.toml", "--cases", "0"],
+        &["campaign", "x.toml", "--cases", "1000001"],
         &["campaign", "x.toml", "--threads", "0"],
     ] {
         ulna(arguments).code(2).stdout("");

@@ -1,5 +1,7 @@
 //! `ulna check`.
 
+#[cfg(unix)]
+use crate::support::make_pipe;
 use crate::support::{folder_with_bad_table, stderr, stdout, ulna};
 
 #[test]
@@ -49,6 +51,39 @@ fn a_task_of_dependent_rows_is_warned_of() {
         err.starts_with("warning: ") && err.contains("w_D is 0 in every configuration"),
         "{err}"
     );
+}
+
+#[test]
+#[cfg(unix)]
+fn no_name_of_a_file_moves_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a\u{1b}[31m.toml");
+    let flat =
+        include_str!("../../../arms/planar_2r.toml").replace("[\"x\", \"y\"]", "[\"x\", \"z\"]");
+    std::fs::write(&path, flat).unwrap();
+    let err = stderr(&ulna(&["check", path.to_str().unwrap()]).code(0));
+    assert!(err.contains("a\\u{1b}[31m.toml: w_D is 0"), "{err}");
+    assert!(!err.contains('\u{1b}'), "{err}");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_pipe_is_refused_and_not_waited_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe.toml");
+    make_pipe(&pipe);
+    let pipe = pipe.to_str().unwrap();
+    for command in [
+        "check",
+        "generate",
+        "cost",
+        "verify",
+        "reproduce",
+        "campaign",
+    ] {
+        let err = stderr(&ulna(&[command, pipe]).code(1).stdout(""));
+        assert!(err.contains("this is no regular file"), "{command}: {err}");
+    }
 }
 
 #[test]

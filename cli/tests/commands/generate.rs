@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use crate::support::{folder_with_bad_table, stderr, stdout, ulna};
+#[cfg(unix)]
+use crate::support::{at, make_pipe};
+use crate::support::{folder_with_bad_table, root, stderr, stdout, ulna};
 
 const TABLE: &str = "arms/planar_2r.toml";
 
@@ -116,4 +118,115 @@ fn an_output_that_cannot_be_written_is_an_error() {
 #[test]
 fn check_needs_a_file_to_check() {
     ulna(&["generate", TABLE, "--check"]).code(2).stdout("");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_line_break_in_the_name_of_the_table_stays_in_the_comment() {
+    let folder = tempfile::tempdir().unwrap();
+    let copy = folder.path().join("a\npub fn injected() {}\n.toml");
+    fs::copy(root().join(TABLE), &copy).unwrap();
+    let code = stdout(&ulna(&["generate", copy.to_str().unwrap()]).code(0));
+    assert!(
+        !code.lines().any(|line| line.starts_with("pub fn")),
+        "{code:.300}"
+    );
+    assert!(
+        code.contains(r"from a\npub fn injected() {}\n.toml: do not"),
+        "{code:.300}"
+    );
+}
+
+#[test]
+#[cfg(unix)]
+fn what_is_no_regular_file_is_neither_replaced_nor_read() {
+    use std::os::unix::fs::{FileTypeExt, symlink};
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    make_pipe(&path("pipe"));
+    let _listener = std::os::unix::net::UnixListener::bind(path("socket")).unwrap();
+    fs::create_dir(path("folder")).unwrap();
+    symlink("pipe", path("to_pipe")).unwrap();
+    symlink("/dev/null", path("to_device")).unwrap();
+    for (name, kind) in [
+        ("pipe", "a pipe"),
+        ("socket", "a socket"),
+        ("folder", "a folder"),
+        ("to_pipe", "a pipe"),
+        ("to_device", "a device"),
+    ] {
+        let file = path(name);
+        let file = file.to_str().unwrap();
+        let arguments = ["generate", TABLE, "--output", file, "--check"];
+        let err = stderr(&ulna(&arguments[..4]).code(1).stdout(""));
+        let message =
+            format!("error: cannot write {file}: it is {kind}, no regular file; name another file");
+        assert!(err.contains(&message), "{err}");
+        let err = stderr(&ulna(&arguments).code(1).stdout(""));
+        let message = format!("error: cannot read {file}: it is {kind}, no regular file");
+        assert!(err.contains(&message), "{err}");
+    }
+    let file_type = |name| fs::symlink_metadata(path(name)).unwrap().file_type();
+    assert!(file_type("pipe").is_fifo() && file_type("socket").is_socket());
+    assert_eq!(at(&path("to_device")), "/dev/null");
+    assert_eq!(at(folder.path()), "folder pipe socket to_device to_pipe");
+}
+
+#[test]
+#[cfg(unix)]
+fn symbolic_links_are_written_through() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir(path("elsewhere")).unwrap();
+    fs::write(path("elsewhere/old.rs"), "old").unwrap();
+    symlink("elsewhere/old.rs", path("old.rs")).unwrap();
+    symlink("old.rs", path("twice.rs")).unwrap();
+    symlink("elsewhere/new.rs", path("dangling.rs")).unwrap();
+    let generate =
+        |name: &str| ulna(&["generate", TABLE, "--output", path(name).to_str().unwrap()]);
+    let code = stdout(&ulna(&["generate", TABLE]));
+    generate("twice.rs").code(0).stderr("");
+    generate("dangling.rs").code(0).stderr("");
+    assert_eq!(at(&path("twice.rs")), "old.rs");
+    assert_eq!(at(&path("old.rs")), "elsewhere/old.rs");
+    assert_eq!(at(&path("dangling.rs")), "elsewhere/new.rs");
+    assert_eq!(at(&path("elsewhere")), "new.rs old.rs");
+    for name in ["elsewhere/old.rs", "elsewhere/new.rs"] {
+        assert_eq!(at(&path(name)), code);
+    }
+    symlink("absent/new.rs", path("lost.rs")).unwrap();
+    symlink("loop.rs", path("loop.rs")).unwrap();
+    let err = stderr(&generate("lost.rs").code(1).stdout(""));
+    assert!(err.contains("/absent is not there; make it"), "{err}");
+    let err = stderr(&generate("loop.rs").code(1).stdout(""));
+    assert!(
+        err.contains("cannot write") && err.contains("loop.rs: "),
+        "{err}"
+    );
+    assert!(fs::symlink_metadata(path("absent")).is_err());
+}
+
+#[test]
+#[cfg(unix)]
+fn a_replaced_file_keeps_its_rights() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("arm.rs");
+    let generate = || ulna(&["generate", TABLE, "--output", file.to_str().unwrap()]);
+    for mode in [0o600, 0o666, 0o755] {
+        fs::write(&file, "old").unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(mode)).unwrap();
+        generate().code(0);
+        let found = fs::metadata(&file).unwrap().permissions().mode();
+        assert_eq!(found & 0o777, mode);
+    }
+    fs::write(&file, "precious").unwrap();
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o444)).unwrap();
+    let err = stderr(&generate().code(1));
+    assert!(
+        err.contains("it is write-protected; name another file"),
+        "{err}"
+    );
+    assert_eq!(at(&file), "precious");
 }

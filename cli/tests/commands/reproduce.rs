@@ -26,6 +26,39 @@ fn quick_scenario(edits: &[(&str, &str)]) -> TempDir {
     folder
 }
 
+/// A folder with `quick.toml` about an arm of two joints, and that arm's table.
+fn planar_scenario() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let table = include_str!("../../../arms/planar_2r.toml").replace("planar_2r", "my_arm");
+    fs::write(folder.path().join("my_arm.toml"), table).unwrap();
+    let scenario = r#"
+name = "by_table"
+arm = "my_arm.toml"
+angle_unit = "deg"
+[motion]
+kind = "tool"
+angles = "q"
+start = [10, 60]
+displacement = [-0.3, 0.2, 0, 0, 0, 0]
+duration = 2
+blend = 0.5
+[failure]
+joints = [2]
+times = [0.9]
+[control]
+cycle = 0.1
+[search]
+start = 0
+step = 1e-3
+[[experiment]]
+section = "a"
+force = [1, [0, 2], 0]
+rated_torque = "table"
+"#;
+    fs::write(folder.path().join("quick.toml"), scenario).unwrap();
+    folder
+}
+
 fn reproduce(folder: &TempDir) -> Assert {
     let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     ulna(&["reproduce", &path("quick.toml"), "--output", &path("out")])
@@ -253,34 +286,7 @@ fn figures_are_whole(output: &Path) {
 
 #[test]
 fn a_table_runs_on_the_generic_path() {
-    let folder = tempfile::tempdir().unwrap();
-    let table = include_str!("../../../arms/planar_2r.toml").replace("planar_2r", "my_arm");
-    fs::write(folder.path().join("my_arm.toml"), table).unwrap();
-    let scenario = r#"
-name = "by_table"
-arm = "my_arm.toml"
-angle_unit = "deg"
-[motion]
-kind = "tool"
-angles = "q"
-start = [10, 60]
-displacement = [-0.3, 0.2, 0, 0, 0, 0]
-duration = 2
-blend = 0.5
-[failure]
-joints = [2]
-times = [0.9]
-[control]
-cycle = 0.1
-[search]
-start = 0
-step = 1e-3
-[[experiment]]
-section = "a"
-force = [1, [0, 2], 0]
-rated_torque = "table"
-"#;
-    fs::write(folder.path().join("quick.toml"), scenario).unwrap();
+    let folder = planar_scenario();
     let out = stdout(&reproduce(&folder).code(0));
     assert!(
         out.starts_with("by_table: arm my_arm, joint 2 locks\n"),
@@ -325,6 +331,60 @@ fn an_output_that_cannot_be_written_is_named() {
     let err = stderr(&reproduce(&folder).code(1).stdout(""));
     assert!(err.contains("error: cannot make the folder"), "{err}");
     assert!(err.contains("/out is a file"), "{err}");
+}
+
+#[test]
+#[cfg(unix)]
+fn an_output_that_is_a_dangling_link_is_refused_before_the_work() {
+    let folder = planar_scenario();
+    std::os::unix::fs::symlink("absent", folder.path().join("out")).unwrap();
+    let err = stderr(&reproduce(&folder).code(1).stdout(""));
+    let message =
+        "/out is a symbolic link to absent, which is not there; make that folder, or choose";
+    assert!(err.contains(message), "{err}");
+    assert!(!folder.path().join("absent").exists());
+    // With the folder there, the link is a folder like any other.
+    fs::create_dir(folder.path().join("absent")).unwrap();
+    reproduce(&folder).code(0);
+    assert!(folder.path().join("absent/results.json").exists());
+}
+
+#[test]
+fn files_are_replaced_all_or_none() {
+    let folder = planar_scenario();
+    let output = folder.path().join("out");
+    fs::create_dir(&output).unwrap();
+    fs::write(output.join("README.md"), "precious").unwrap();
+    // In the way of the last file.
+    let blocked = output.join("figures/ever-shorter-brakes.png");
+    fs::create_dir_all(&blocked).unwrap();
+    let err = stderr(&reproduce(&folder).code(1));
+    let message = "ever-shorter-brakes.png: it is a folder, no regular file";
+    assert!(err.contains(message), "{err}");
+    assert_eq!(files(&output), ["README.md".to_owned()].into());
+    assert_eq!(
+        fs::read_to_string(output.join("README.md")).unwrap(),
+        "precious"
+    );
+    fs::remove_dir(blocked).unwrap();
+    // `series` has been made by then, and goes again.
+    let figures = output.join("figures");
+    fs::remove_dir(&figures).unwrap();
+    fs::write(&figures, "a file").unwrap();
+    let err = stderr(&reproduce(&folder).code(1));
+    assert!(
+        err.contains("cannot make the folder") && err.contains("/figures"),
+        "{err}"
+    );
+    assert_eq!(
+        files(&output),
+        ["README.md", "figures"].map(str::to_owned).into()
+    );
+    assert!(!output.join("series").exists());
+    assert_eq!(
+        fs::read_to_string(output.join("README.md")).unwrap(),
+        "precious"
+    );
 }
 
 #[test]

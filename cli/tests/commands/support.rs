@@ -41,6 +41,31 @@ pub(crate) fn folder_with_bad_table() -> tempfile::TempDir {
     folder
 }
 
+/// What stands at a path: a file's text, where a link leads, or the names in a folder.
+#[cfg(unix)]
+pub(crate) fn at(path: &Path) -> String {
+    let found = std::fs::symlink_metadata(path).unwrap();
+    if found.is_symlink() {
+        std::fs::read_link(path).unwrap().display().to_string()
+    } else if found.is_dir() {
+        let entries = std::fs::read_dir(path).unwrap();
+        let mut names: Vec<_> = entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names.join(" ")
+    } else {
+        std::fs::read_to_string(path).unwrap()
+    }
+}
+
+/// A pipe at `path`, which nobody writes to.
+#[cfg(unix)]
+pub(crate) fn make_pipe(path: &Path) {
+    let made = std::process::Command::new("mkfifo").arg(path).status();
+    assert!(made.unwrap().success());
+}
+
 /// The lines of the help of `command`, or without one of the program, that show how it is called.
 pub(crate) fn examples(command: &str) -> Vec<String> {
     let arguments = match command {

@@ -16,6 +16,11 @@ const FORCE_SPREAD: Bound = Bound {
     help: "a spread is the largest deviation, not negative",
 };
 
+/// The most cases: their rows are in memory together, 0.2 KB each.
+const MAX_CASES: u64 = 1_000_000;
+/// The most failure times: each is a column of the figure.
+const MAX_FAILURE_TIMES: u64 = 1000;
+
 impl Reader<'_> {
     pub(super) fn campaign(&self, table: &CampaignTable) -> Option<CampaignSettings> {
         let count = |number: &Option<Located<u64>>, default: u64, most: u64| {
@@ -38,8 +43,8 @@ impl Reader<'_> {
             Some(_) => self.bounded(number, bound),
             None => Some(default),
         };
-        let cases = count(&table.cases, 10_000, 100_000_000);
-        let failure_times = count(&table.failure_times, 20, 10_000);
+        let cases = count(&table.cases, 10_000, MAX_CASES);
+        let failure_times = count(&table.failure_times, 20, MAX_FAILURE_TIMES);
         let start_spread = spread(&table.start_spread, 0.5, &SPREAD);
         let goal_spread = spread(&table.goal_spread, 0.5, &SPREAD);
         let force_spread = spread(&table.force_spread, 20.0, &FORCE_SPREAD);

@@ -31,6 +31,8 @@ const FAILURE_TIME: Bound = Bound {
 
 /// The highest power of time in a force, plus 1.
 const MAX_COEFFICIENTS: usize = 8;
+/// The most figures in a scenario: all are in memory before any is written.
+const MAX_FIGURES: usize = 100;
 
 impl Reader<'_> {
     /// The experiments; each section and each figure's name may be there once, and `times` are the failure times.
@@ -82,6 +84,12 @@ impl Reader<'_> {
                     experiment = None;
                 }
                 names.push(&name.value);
+                if names.len() == MAX_FIGURES + 1 {
+                    let message = format!("there are more than {MAX_FIGURES} figures");
+                    let help = "write fewer figures, or several scenarios";
+                    self.refuse(&name.span, message, "one too many", help);
+                    experiment = None;
+                }
             }
             read.push(experiment);
         }

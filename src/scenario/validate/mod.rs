@@ -6,7 +6,9 @@ mod failure;
 mod motion;
 
 use super::arm::ScenarioArm;
-use super::read::{List, MotionTable, Number, Numbers, ScenarioTable, SearchTable};
+use super::read::{
+    ExperimentTable, FailureTable, List, MotionTable, Number, Numbers, ScenarioTable, SearchTable,
+};
 use super::{BrakeSettings, Scenario, SearchGrid};
 use crate::Joint;
 use crate::diagnostics::{Diagnostic, Sink};
@@ -40,8 +42,12 @@ const STEP: Bound = Bound {
     unit: "",
     help: "a step is positive; the paper's are 1e6 and 1e7",
 };
-/// The most control cycles in a motion: a search keeps each in memory, with all that a compensation is made of.
-const MAX_CYCLES: f64 = 1e5;
+/// The most control cycles in a motion: a search keeps each in memory, with all that a compensation is made of,
+/// and as many searches run at once as there are cores. For 7 joints that is 8 KB for each cycle and core.
+const MAX_CYCLES: f64 = 1e4;
+/// The most studies, experiments times failure times: the series and figures of all are in memory before any is written,
+/// some 1 MB for each with 7 joints.
+const MAX_STUDIES: usize = 100;
 
 /// What the lists of a scenario are checked against.
 struct Reader<'s> {
@@ -79,6 +85,7 @@ impl ScenarioTable {
             .experiments
             .as_ref()
             .and_then(|tables| reader.experiments(tables, times));
+        let studies = reader.studies(self.failure.as_ref(), self.experiments.as_deref());
         let brake = match &self.brake.duration {
             Some(_) => reader.bounded(&self.brake.duration, &BRAKE),
             None => Some(DEFAULT_BRAKE),
@@ -89,6 +96,7 @@ impl ScenarioTable {
         });
         let campaign = reader.campaign(&self.campaign);
         let (failed_joints, failure_times) = failure?;
+        studies?;
         Some(Scenario {
             name: self.name?,
             description: self.description,
@@ -145,10 +153,32 @@ impl Reader<'_> {
                 "{} cuts the motion into more than {MAX_CYCLES} cycles",
                 cycle.name
             );
-            self.refuse(&cycle.span, message, "", "write a longer cycle");
+            let help = "write a longer cycle, or a shorter `duration` of [motion]";
+            self.refuse(&cycle.span, message, "", help);
             return None;
         }
         Some(value)
+    }
+
+    /// Refuses more studies than fit into a run.
+    fn studies(
+        &self,
+        failure: Option<&FailureTable>,
+        experiments: Option<&[ExperimentTable]>,
+    ) -> Option<()> {
+        let times = failure?.times.as_ref()?;
+        let (count, experiments) = (times.value.len(), experiments?.len());
+        if count.saturating_mul(experiments) <= MAX_STUDIES {
+            return Some(());
+        }
+        let message = format!(
+            "{} has {count} for each of {experiments} experiments",
+            times.name
+        );
+        let most = format!("times and experiments multiply to at most {MAX_STUDIES}");
+        let help = "write fewer times or experiments, or several scenarios";
+        self.refuse(&times.span, message, most, help);
+        None
     }
 
     fn search(&self, table: &SearchTable) -> Option<SearchGrid> {

@@ -25,6 +25,12 @@ const DISPLACEMENT: Bound = Bound {
     unit: "m, rad",
     help: "three lengths in metres, then a rotation vector in radians",
 };
+/// A knot every 0.02 s is integrated and kept, and a campaign does it for every case.
+const TOOL_DURATION: Bound = Bound {
+    range: 1e-3..=1e3,
+    unit: "s for a motion of the tool",
+    help: "write a shorter duration, or `kind = \"joint\"`",
+};
 
 impl MotionTable {
     /// How many joints the motion is for, if its lists agree about it.
@@ -50,7 +56,11 @@ impl Reader<'_> {
                 Some(Path::Tool(Vector6::from_column_slice(&numbers)))
             }
         });
-        let duration = self.bounded(&table.duration, &DURATION);
+        let bound = match table.path {
+            Some(PathTable::Tool(_)) => &TOOL_DURATION,
+            _ => &DURATION,
+        };
+        let duration = self.bounded(&table.duration, bound);
         let blend = table.blend.as_ref();
         let blend = blend.and_then(|blend| self.blend(blend, duration));
         let max_velocity = self.limits(&table.max_velocity);

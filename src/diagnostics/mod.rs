@@ -1,5 +1,7 @@
 //! [`Diagnostics`]: what is wrong with a TOML text, where, and what to write instead.
 
+mod excerpt;
+
 use std::cell::RefCell;
 use std::fmt;
 use std::ops::Range;
@@ -8,6 +10,8 @@ use std::sync::Arc;
 use annotate_snippets::{
     AnnotationKind, Level, Origin, Renderer, Snippet, normalize_untrusted_str,
 };
+
+use excerpt::{floor_char, line_around, shortened, start_of};
 
 /// How grave a [`Diagnostic`] is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +51,7 @@ impl Diagnostic {
     fn new(severity: Severity, span: Option<Range<usize>>, message: String) -> Self {
         Self {
             severity,
-            message,
+            message: shortened(message),
             label: String::new(),
             help: None,
             position: None,
@@ -76,7 +80,7 @@ impl Diagnostic {
     }
 
     pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(shortened(help.into()));
         self
     }
 }
@@ -201,6 +205,7 @@ impl Diagnostics {
             (Some(span), Some(position)) => {
                 // Only the marked line goes out: it is all that is shown, and rendering stays linear in the text.
                 let (line, marked) = line_around(&self.text, span);
+                let marked = start_of(line, marked);
                 let mut annotation = AnnotationKind::Primary.span(marked);
                 if !diagnostic.label.is_empty() {
                     annotation = annotation.label(&diagnostic.label);
@@ -235,25 +240,6 @@ impl fmt::Debug for Diagnostics {
 }
 
 impl std::error::Error for Diagnostics {}
-
-/// The line that holds the start of `span`, without its end, and the part of `span` that lies in it.
-fn line_around<'t>(text: &'t str, span: &Range<usize>) -> (&'t str, Range<usize>) {
-    let start = floor_char(text, span.start);
-    let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
-    let rest = &text[line_start..];
-    let line = rest.lines().next().unwrap_or_default();
-    let end = floor_char(text, span.end.max(start));
-    let marked = (start - line_start).min(line.len())..(end - line_start).min(line.len());
-    (line, marked)
-}
-
-/// The last character boundary of `text` at or before `byte`.
-fn floor_char(text: &str, byte: usize) -> usize {
-    (0..=byte.min(text.len()))
-        .rev()
-        .find(|&byte| text.is_char_boundary(byte))
-        .unwrap_or(0)
-}
 
 /// Where the lines of a text begin.
 struct LineIndex<'t> {
@@ -305,6 +291,23 @@ mod tests {
         assert!(text.contains("a.toml:1:5"), "{text}");
         assert!(text.contains("1 | x = [\n"), "{text}");
         assert!(text.contains("|     ^ here"), "{text}");
+    }
+
+    #[test]
+    fn a_long_line_is_cut_around_the_mark() {
+        let long = format!("{}\u{e9}", "\u{e9}x ".repeat(50_000));
+        for (text, span) in [
+            (format!("x = \"{long}\"\n"), 4..long.len() + 6),
+            (format!("# {long} # {long}"), long.len() + 3..long.len() + 4),
+            (format!("{}x = 1", " ".repeat(200_000)), 200_004..200_005),
+            ("\t".repeat(200_000), 100_000..200_000),
+        ] {
+            let column = text[..span.start].chars().count() + 1;
+            let shown = at(&text, span).to_string();
+            assert!(shown.contains(&format!("a.toml:1:{column}\n")), "{shown}");
+            assert!(shown.contains("^ here"), "{shown}");
+            assert!(shown.lines().all(|line| line.len() < 800), "{shown}");
+        }
     }
 
     #[test]

@@ -1,0 +1,185 @@
+//! Files, written whole or not at all.
+
+mod lock;
+mod target;
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+use tempfile::NamedTempFile;
+
+pub(crate) use lock::FolderLock;
+pub(crate) use target::{refuse_special, target};
+
+/// Writes `bytes` under another name first, so that the file at `path` is never half of them.
+/// Symbolic links are written through.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    Staged::write(path, bytes)?.persist()
+}
+
+/// A file that is written, but has not got its name yet. Dropped, it leaves nothing.
+struct Staged {
+    file: NamedTempFile,
+    path: PathBuf,
+    target: PathBuf,
+}
+
+impl Staged {
+    fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
+        let target = target(path)?;
+        let written = temporary(&target).and_then(|mut file| {
+            file.write_all(bytes)?;
+            // A file system may find out only now that it is full.
+            file.as_file().sync_all()?;
+            Ok(file)
+        });
+        Ok(Self {
+            file: written.with_context(|| cannot_write(path))?,
+            path: path.to_path_buf(),
+            target,
+        })
+    }
+
+    fn persist(self) -> anyhow::Result<()> {
+        let Self { file, path, target } = self;
+        file.persist(target)
+            .map(drop)
+            .with_context(|| cannot_write(&path))
+    }
+}
+
+/// A file beside `target`, with the rights of the file that stands there.
+fn temporary(target: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    let old = fs::metadata(target)
+        .ok()
+        .map(|metadata| metadata.permissions());
+    #[cfg(unix)]
+    {
+        // A new one is like any new file, and not only for its owner; the umask applies.
+        use std::os::unix::fs::PermissionsExt;
+        let new = fs::Permissions::from_mode(0o666);
+        builder.permissions(old.clone().unwrap_or(new));
+    }
+    let file = builder.tempfile_in(folder_of(target))?;
+    if let Some(old) = old {
+        file.as_file().set_permissions(old)?;
+    }
+    Ok(file)
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+fn cannot_write(path: &Path) -> String {
+    format!("cannot write {}", path.display())
+}
+
+/// Refuses a `folder` that no file can be written to, before the work that leads to the files. Makes nothing.
+pub(crate) fn check_folder(folder: &Path) -> anyhow::Result<()> {
+    let cannot_make = || format!("cannot make the folder {}", folder.display());
+    for there in folder.ancestors() {
+        // The last ancestor of a relative path is empty: the folder that the program runs in.
+        let there = if there.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            there
+        };
+        match fs::metadata(there) {
+            Ok(metadata) if metadata.is_dir() => {
+                return tempfile::tempfile_in(there)
+                    .map(drop)
+                    .with_context(|| format!("cannot write to the folder {}", there.display()));
+            }
+            Ok(_) => bail!("{}: {} is a file", cannot_make(), there.display()),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                if let Ok(to) = fs::read_link(there) {
+                    bail!(
+                        "{}: {} is a symbolic link to {}, which is not there; make that folder, or choose another --output",
+                        cannot_make(),
+                        there.display(),
+                        to.display()
+                    );
+                }
+            }
+            // Of a path through a file; that file is further up.
+            Err(error) if error.kind() == io::ErrorKind::NotADirectory => {}
+            Err(error) => return Err(error).with_context(cannot_make),
+        }
+    }
+    Ok(())
+}
+
+/// The files of a folder before they are written: what fails on the way leaves nothing behind.
+#[derive(Default)]
+pub(crate) struct Files(Vec<(PathBuf, Vec<u8>)>);
+
+impl Files {
+    /// Adds a file; `name` may have folders in it.
+    pub(crate) fn add(&mut self, name: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) {
+        self.0.push((name.into(), bytes.into()));
+    }
+
+    /// Writes all of them into `folder`, which is made if need be, and returns their paths.
+    ///
+    /// None gets its name before all are written: where there is no room for one, those that stand there stay as they are.
+    pub(crate) fn write_to(self, folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+        // Dropped last: after the files in them.
+        let mut made = MadeFolders(Vec::new());
+        let mut staged = Vec::new();
+        for (name, bytes) in self.0 {
+            let path = folder.join(name);
+            let parent = path.parent().unwrap_or(folder);
+            made.make(parent)
+                .with_context(|| format!("cannot make the folder {}", parent.display()))?;
+            staged.push(Staged::write(&path, &bytes)?);
+        }
+        let mut paths = Vec::new();
+        for file in staged {
+            paths.push(file.path.clone());
+            file.persist()?;
+            made.keep();
+        }
+        Ok(paths)
+    }
+}
+
+/// Folders made for files that are under way. Dropped before they are kept, they are removed again.
+struct MadeFolders(Vec<PathBuf>);
+
+impl MadeFolders {
+    fn make(&mut self, folder: &Path) -> io::Result<()> {
+        let missing: Vec<_> = folder
+            .ancestors()
+            .take_while(|path| !path.as_os_str().is_empty() && !path.is_dir())
+            .collect();
+        for path in missing.into_iter().rev() {
+            match fs::create_dir(path) {
+                Ok(()) => self.0.push(path.to_path_buf()),
+                // `a/..` is there once `a` is, and another program may have made it meanwhile.
+                Err(_) if path.is_dir() => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+
+    fn keep(&mut self) {
+        self.0.clear();
+    }
+}
+
+impl Drop for MadeFolders {
+    fn drop(&mut self) {
+        for folder in self.0.iter().rev() {
+            // It fails, as it should, if somebody else has put something there.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
