@@ -10,7 +10,9 @@ use crate::TaskRows;
 /// Twists and wrenches are linear first, `[v; ω]` and `[f; n]`, in world axes, at the tool point.
 /// `q` is measured from the table's configuration.
 ///
-/// For finite arguments of any size that a mechanism can have, no method returns NaN and none panics.
+/// For finite arguments of any size that a mechanism can have, no method returns NaN and none panics; for a `q` that is not finite,
+/// results are NaN where they depend on it. A prismatic joint farther out than [`PRISMATIC_LIMIT`](crate::real::PRISMATIC_LIMIT)
+/// is read as if it stood there.
 pub trait Arm<const N: usize> {
     /// The rows of the Jacobian that make up the task of w_D.
     fn task(&self) -> TaskRows;
@@ -38,7 +40,7 @@ pub trait Arm<const N: usize> {
 
     /// w_D and its gradient ∇w_D (Eq. 22–27).
     ///
-    /// Where w_D is 0, Eq. 23 has no value; the gradient returned there is the zero vector.
+    /// Where w_D is 0, Eq. 23 has no value; the gradient returned there is the zero vector. [`crate::singular`] says where that is.
     fn dynamic_manipulability_gradient(&self, q: &SVector<f64, N>) -> (f64, SVector<f64, N>);
 
     /// Inverse dynamics τ = M q̈ + c(q, q̇) + g(q), N·m, without a tool wrench.

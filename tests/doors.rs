@@ -150,3 +150,22 @@ fn a_changed_table_is_compiled_again() {
         assert_ne!(user.run(), before, "{example}");
     }
 }
+
+/// A planar arm cannot move across its plane.
+#[test]
+fn a_task_that_is_singular_everywhere_is_a_warning_at_every_door() {
+    for (name, example) in [
+        ("macro_warning", "macro"),
+        ("build_script_warning", "build_script"),
+    ] {
+        let user = Crate::of_user(name, &format!("examples/{example}"));
+        let table = fs::read_to_string(root().join(TABLE)).unwrap();
+        let table = table.replace("rows = [\"x\", \"y\"]", "rows = [\"z\"]");
+        user.write("arms/planar_2r.toml", &table);
+        let messages = user.messages();
+        assert!(
+            messages.contains("arms/planar_2r.toml: w_D is 0 in every configuration"),
+            "{example}:\n{messages}"
+        );
+    }
+}

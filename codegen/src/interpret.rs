@@ -6,7 +6,7 @@ use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translatio
 use ulna::{Arm, Model, SerialChain, TaskRows, unrolled};
 
 use crate::Method;
-use crate::accuracy::{Scalar, read};
+use crate::accuracy::{Conditioned, Scalar, read};
 use crate::double_double::DoubleDouble;
 
 /// An arm that evaluates its programs step by step, on the scalars `R`; results are rounded to `f64`.
@@ -14,6 +14,7 @@ use crate::double_double::DoubleDouble;
 pub struct Interpreter<const N: usize, R = f64> {
     chain: SerialChain<N>,
     methods: Vec<Method>,
+    conditioned: Option<Conditioned>,
     scalar: PhantomData<R>,
 }
 
@@ -34,11 +35,23 @@ impl<const N: usize, R: Scalar> Interpreter<N, R> {
     /// # Errors
     /// When the model has another number of joints than `N`.
     pub fn new(model: &Model) -> Result<Self, ulna::generic::JointCountError> {
+        let chain = SerialChain::new(model)?;
+        let crate::Compiled {
+            methods,
+            conditioned,
+            ..
+        } = crate::compile(model);
         Ok(Self {
-            chain: SerialChain::new(model)?,
-            methods: crate::compile(model).methods,
+            chain,
+            methods,
+            conditioned,
             scalar: PhantomData,
         })
+    }
+
+    /// The factor of ε and of the condition number that bounds the errors of w_D and ∇w_D, as the generated file states it.
+    pub fn stated_factor(&self) -> Option<f64> {
+        self.conditioned.map(|conditioned| conditioned.factor)
     }
 
     /// The results of a method, each output as a row of numbers.

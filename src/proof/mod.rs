@@ -60,7 +60,7 @@ pub struct Deviation {
     /// positions and J's rows of v, what the joints carry for M and torques, w_D for w_D, w_D or the largest entry for ∇w_D.
     /// Forward dynamics is judged by what its accelerations need: the error is that of the torques.
     pub error: f64,
-    /// What rounding alone may leave at that state: 8 (N + 4) ε, times the condition number of w_D for w_D and ∇w_D.
+    /// What rounding alone may leave at that state: 8 (N + 4) ε, times the [condition] number of w_D for w_D, and four times that for ∇w_D.
     pub tolerance: f64,
 }
 
@@ -172,6 +172,16 @@ pub fn compare_with<const N: usize>(
     report
 }
 
+/// The first-order condition number of w_D at `q`: its relative change, at worst, where every entry of J and M changes by ε of the
+/// largest that its terms can be, is ε times this. 0 where w_D is 0.
+pub fn condition<const N: usize>(
+    reference: &impl Arm<N>,
+    chain: &SerialChain<N>,
+    q: &SVector<f64, N>,
+) -> f64 {
+    Scale::new(reference, chain, q).condition
+}
+
 /// Every method, in the trait's order.
 const METHODS: [&str; 15] = [
     "task",
@@ -211,7 +221,17 @@ fn errors<const N: usize>(
     let torque = |qd, qdd, found: SVector<f64, N>, expected: SVector<f64, N>| {
         rounded(Scale::torques(&scale.torque(qd, qdd), &(found - expected)))
     };
-    let conditioned = |error: f64| (error, rounding(N) * scale.condition);
+    // Where the condition number leaves less than two digits, first-order theory says no more.
+    let allowed = |tolerance: f64| {
+        if tolerance > 1e-2 {
+            f64::INFINITY
+        } else {
+            tolerance
+        }
+    };
+    let conditioned = |error: f64| (error, allowed(rounding(N) * scale.condition));
+    // A gradient has the rounding of w_D's dependence on J and M in it, besides that of J and M.
+    let twice_conditioned = |error: f64| (error, allowed(4.0 * rounding(N) * scale.condition));
     let (w, gradient) = reference.dynamic_manipulability_gradient(q);
     let manipulability = |found: f64| relative(found - w, w);
     let slopes = |found: (f64, SVector<f64, N>)| {
@@ -259,7 +279,7 @@ fn errors<const N: usize>(
         rounded(masses(candidate.mass_matrix(q))),
         rounded(masses_change(&candidate.mass_matrix_derivatives(q))),
         conditioned(manipulability(candidate.dynamic_manipulability(q))),
-        conditioned(slopes(candidate.dynamic_manipulability_gradient(q))),
+        twice_conditioned(slopes(candidate.dynamic_manipulability_gradient(q))),
         torque(
             qd,
             qdd,
@@ -287,7 +307,7 @@ fn errors<const N: usize>(
         rounded(worse(masses(both.0), masses_change(&both.1))),
         {
             let (jacobian, gradient) = (twists(beside), slopes((w_beside, gradient_beside)));
-            let (_, allowed) = conditioned(gradient);
+            let (_, allowed) = twice_conditioned(gradient);
             // J's own error is small enough on its own account, or too large on any.
             let excess = if jacobian <= rounding(N) {
                 0.0

@@ -52,9 +52,14 @@ impl<const N: usize> Scale<N> {
         scale
     }
 
+    /// 0 where w_D is 0, and nothing else is right.
+    ///
     /// Σ |W_rj| s_r + Σ |(HᵀW)_ij| m_i m_j, s the sizes of J's entries and m m that of M's:
     /// δ ln w_D = ⟨W, δJ⟩ − ⟨HᵀW, δM⟩, with H = JM⁻¹ and W = (H†)ᵀM⁻¹.
     fn condition_of_manipulability(&self, reference: &impl Arm<N>, q: &SVector<f64, N>) -> f64 {
+        if reference.dynamic_manipulability(q) == 0.0 {
+            return 0.0;
+        }
         let task = reference.task();
         let jacobian = reference.geometric_jacobian(q);
         let mass = factor(reference.mass_matrix(q));

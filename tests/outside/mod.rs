@@ -111,6 +111,12 @@ impl Crate {
         }
     }
 
+    /// Everything that cargo has to say while it builds the crate.
+    pub(crate) fn messages(&self) -> String {
+        let output = self.cargo("build", &[]);
+        String::from_utf8(output.stderr).unwrap()
+    }
+
     /// What the crate's program prints.
     pub(crate) fn run(&self) -> String {
         let output = self.cargo("run", &["--quiet"]);

@@ -1,7 +1,7 @@
 //! What is compared with what, and how far apart they may be. The only file that knows.
 
-use nalgebra::DMatrix;
-use ulna::proof::{State, compare_with};
+use nalgebra::{DMatrix, SVector};
+use ulna::proof::{State, compare_with, condition, differences};
 use ulna::singular::least_volume_squared;
 use ulna::{Arm as _, SerialChain, TaskRow};
 use ulna_codegen::Interpreter;
@@ -60,6 +60,13 @@ pub(crate) fn judge<const N: usize>(
         })
     });
     let mut judgements: Vec<_> = judgements.collect();
+    let by_differences = differences::compare(programs, chain, [state].into_iter());
+    judgements.extend(by_differences.iter().map(|deviation| Judgement {
+        method: format!("differences: {}", deviation.method),
+        error: deviation.error,
+        allowed: deviation.tolerance,
+    }));
+    judgements.extend(as_the_file_states(programs, chain, exact, &state));
     let w = [
         programs.dynamic_manipulability(&state.q),
         chain.dynamic_manipulability(&state.q),
@@ -84,13 +91,39 @@ pub(crate) fn judge<const N: usize>(
     judgements
 }
 
+/// w_D and ∇w_D beside what the generated file states of their errors.
+fn as_the_file_states<const N: usize>(
+    programs: &Interpreter<N>,
+    chain: &SerialChain<N>,
+    exact: &Exact<N>,
+    state: &State<N>,
+) -> Option<Judgement> {
+    let (w, gradient) = programs.dynamic_manipulability_gradient(&state.q);
+    let (exact_w, exact_gradient) = exact.dynamic_manipulability_gradient(&state.q);
+    let slopes = (gradient - exact_gradient).amax() / exact_gradient.amax().max(exact_w);
+    let error = slopes.max((w - exact_w).abs() / exact_w);
+    let bound = programs.stated_factor()? * f64::EPSILON * condition(exact, chain, &state.q);
+    (exact_w > 0.0 && bound < 1e-2).then(|| Judgement {
+        method: "what the file states of w_D".to_owned(),
+        error,
+        allowed: bound,
+    })
+}
+
+fn task_rows<const N: usize>(chain: &SerialChain<N>, q: &SVector<f64, N>) -> DMatrix<f64> {
+    let jacobian = chain.geometric_jacobian(q);
+    let rows: Vec<_> = chain.task.iter().map(TaskRow::index).collect();
+    DMatrix::from_fn(rows.len(), N, |r, c| jacobian[(rows[r], c)])
+}
+
+fn volume(rows: &DMatrix<f64>) -> f64 {
+    rows.singular_values().iter().product()
+}
+
 /// Whether the volume of J's rows is so near the least that rounding decides whether w_D counts as 0.
 fn is_on_the_threshold<const N: usize>(chain: &SerialChain<N>, state: &State<N>) -> bool {
     const NEAR: f64 = 16.0;
-    let jacobian = chain.geometric_jacobian(&state.q);
-    let rows: Vec<_> = chain.task.iter().map(TaskRow::index).collect();
-    let rows = DMatrix::from_fn(rows.len(), N, |r, c| jacobian[(rows[r], c)]);
-    let volume: f64 = rows.singular_values().iter().product();
+    let volume = volume(&task_rows(chain, &state.q));
     let q = state.q.data.0[0];
     let least = least_volume_squared(&chain.joints, &chain.tool, chain.task, &q).sqrt();
     volume > least / NEAR && volume < least * NEAR

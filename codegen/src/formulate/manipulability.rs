@@ -11,6 +11,10 @@
 //! (its column of H goes as one over its inertia I), and near a singular pose they are so anyway; once leaves an error that grows
 //! as 1/I², and 1e-9 at 1e-6 rad from a stretched elbow, twice leaves rounding.
 //!
+//! Nor is the order of the rows free where H's columns differ by orders of magnitude: a row without a light joint's large entry, taken
+//! off a row with one, leaves rounding of that entry's size in all others. The generator tries the order in which H's rows
+//! are longest first (Cox and Higham 1998 on row-wise stability).
+//!
 //! det(JJᵀ), by which the task is judged to be singular or not (`ulna::singular`), needs J's rows made orthogonal too,
 //! once: only its size counts.
 
@@ -46,30 +50,53 @@ pub fn volume_squared<'g>(jacobian: &[Row<'g>]) -> Expr<'g> {
     product(&orthogonalise(jacobian, 1).pivots)
 }
 
-/// w_D and ∇w_D of the task whose Jacobian is `jacobian` (by rows), with the mass matrix `mass`.
-pub fn manipulability<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Manipulability<'g> {
+/// How w_D depends on J and M: δ ln w_D = ⟨W, δJ⟩ − ⟨HᵀW, δM⟩.
+pub struct Sensitivity<'g> {
+    /// w_D.
+    value: Expr<'g>,
+    /// W, by rows: as many as J has.
+    pub by_jacobian: Vec<Row<'g>>,
+    /// HᵀW, by rows.
+    pub by_mass: Vec<Row<'g>>,
+}
+
+/// w_D's dependence on J, by rows, and M.
+pub fn sensitivity<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Sensitivity<'g> {
     let mass_factors = factor(mass);
     let h: Vec<Row<'g>> = jacobian.iter().map(|row| mass_factors.solve(row)).collect();
     let basis = orthogonalise(&h, 2);
     let value = product(&basis.pivots).sqrt();
-    let w: Vec<Row<'g>> = basis
-        .duals()
-        .iter()
-        .map(|row| mass_factors.solve(row))
-        .collect();
-    let mut seeded = Vec::new();
-    for (j_row, w_row) in jacobian.iter().zip(&w) {
-        seeded.extend(j_row.iter().copied().zip(w_row.iter().copied()));
-    }
+    let duals = basis.duals();
+    let w: Vec<Row<'g>> = duals.iter().map(|row| mass_factors.solve(row)).collect();
     // Σ over the rows of h_i w_j: the entry (i, j) of HᵀW.
     let outer = |i: usize, j: usize| {
         let terms = h.iter().zip(&w).map(|(h, w)| h[i] * w[j]);
         sum(terms).unwrap_or(value)
     };
+    let joints = 0..mass.len();
+    let row = |i: usize| joints.clone().map(|j| outer(i, j)).collect();
+    Sensitivity {
+        value,
+        by_mass: joints.clone().map(row).collect(),
+        by_jacobian: w,
+    }
+}
+
+/// w_D and ∇w_D of the task whose Jacobian is `jacobian` (by rows), with the mass matrix `mass`.
+pub fn manipulability<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Manipulability<'g> {
+    let Sensitivity {
+        value,
+        by_jacobian,
+        by_mass,
+    } = sensitivity(jacobian, mass);
+    let mut seeded = Vec::new();
+    for (j_row, w_row) in jacobian.iter().zip(&by_jacobian) {
+        seeded.extend(j_row.iter().copied().zip(w_row.iter().copied()));
+    }
     for (i, row) in mass.iter().enumerate() {
-        seeded.push((row[i], -outer(i, i)));
+        seeded.push((row[i], -by_mass[i][i]));
         for (j, entry) in row.iter().enumerate().skip(i + 1) {
-            seeded.push((*entry, -(outer(i, j) + outer(j, i))));
+            seeded.push((*entry, -(by_mass[i][j] + by_mass[j][i])));
         }
     }
     let logarithmic = reverse(value.graph(), &seeded, mass.len());
@@ -78,6 +105,13 @@ pub fn manipulability<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Manipulabil
         gradient: logarithmic.into_iter().map(|x| value * x).collect(),
         volume_squared: volume_squared(jacobian),
     }
+}
+
+/// The squared lengths of H's rows.
+pub fn squared_lengths<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Vec<Expr<'g>> {
+    let mass_factors = factor(mass);
+    let h = jacobian.iter().map(|row| mass_factors.solve(row));
+    h.map(|row| dot(&row, &row)).collect()
 }
 
 /// Rows made orthogonal one after another: row s = reduced s + Σ_r coefficient(s, r) · reduced r, over r < s.

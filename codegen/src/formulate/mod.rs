@@ -29,14 +29,30 @@ pub type Outputs<'g> = Vec<Output<Expr<'g>>>;
 
 /// What is settled before the formulas are written down. A frame is free to choose;
 /// 0 is the base, k the last frame of the k-th group.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choices {
     /// Where J in world axes switches from turning down joint by joint to the frame's world axes.
     pub world: usize,
     /// The axes of J within w_D.
     pub task: usize,
+    /// In which order the task's rows are made orthogonal: their places in the task, each once.
+    pub order: [usize; 6],
     /// Whether the task is singular in every configuration, so that w_D is 0 there.
     pub singular: bool,
+}
+
+/// As the table says.
+pub const IN_ORDER: [usize; 6] = [0, 1, 2, 3, 4, 5];
+
+impl Default for Choices {
+    fn default() -> Self {
+        Self {
+            world: 0,
+            task: 0,
+            order: IN_ORDER,
+            singular: false,
+        }
+    }
 }
 
 /// A method of [`ulna::Arm`] and its formulation.
@@ -196,7 +212,9 @@ fn task_rows<'g>(chain: &Chain<'g>, choices: Choices) -> Vec<Vec<Expr<'g>>> {
         let components = columns.iter().map(|twist| twist.components()[row.index()]);
         components.collect()
     };
-    chain.task.iter().map(row).collect()
+    let rows: Vec<_> = chain.task.iter().map(row).collect();
+    let order = choices.order.iter().filter_map(|place| rows.get(*place));
+    order.cloned().collect()
 }
 
 /// det(JJᵀ) over the task's rows, and the product of the rows' squared lengths: how near to singular the task is.
@@ -210,6 +228,30 @@ pub fn relative_volume<'g>(chain: &Chain<'g>) -> Outputs<'g> {
     vec![
         number("volume", manipulability::volume_squared(&rows)),
         number("lengths", lengths),
+    ]
+}
+
+/// The squared lengths of H's rows, in the order that is chosen.
+pub fn squared_lengths<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
+    let lengths = manipulability::squared_lengths(&task_rows(chain, choices), &mass_matrix(chain));
+    vec![Output {
+        name: "lengths",
+        shape: vec![lengths.len()],
+        elements: lengths,
+    }]
+}
+
+/// How ln w_D depends on the entries of J's rows, as the table names them, and on M's.
+pub fn sensitivity<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
+    let found = manipulability::sensitivity(&task_rows(chain, choices), &mass_matrix(chain));
+    let matrix = |name, rows: Vec<Vec<Expr<'g>>>| Output {
+        name,
+        shape: vec![rows.len(), chain.joint_count()],
+        elements: rows.concat(),
+    };
+    vec![
+        matrix("by_jacobian", found.by_jacobian),
+        matrix("by_mass", found.by_mass),
     ]
 }
 

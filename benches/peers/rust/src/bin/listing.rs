@@ -15,6 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let table = std::env::args().nth(1).ok_or("usage: listing TABLE")?;
     let model = Model::load(table)?;
     let methods: serde_json::Map<String, Value> = ulna_codegen::compile(&model)
+        .methods
         .iter()
         .map(|method| (method.name.into(), listing(&method.program)))
         .collect();
