@@ -14,9 +14,19 @@ macro_rules! wide {
                 Self::splat(value as $scalar)
             }
 
+            /// Fused where one double's are, and nowhere else: the results are the same to the bit.
             #[inline(always)]
             fn mul_add(self, factor: Self, summand: Self) -> Self {
-                self.mul_add(factor, summand)
+                #[cfg(all(
+                    feature = "std",
+                    any(target_feature = "fma", target_arch = "aarch64")
+                ))]
+                return self.mul_add(factor, summand);
+                #[cfg(not(all(
+                    feature = "std",
+                    any(target_feature = "fma", target_arch = "aarch64")
+                )))]
+                return self * factor + summand;
             }
 
             #[inline(always)]
