@@ -1,5 +1,7 @@
 //! [`ArmBatch`]: every method of [`Arm`] for many states at once, in lanes.
 
+mod lengths;
+
 use core::marker::PhantomData;
 use core::slice;
 
@@ -9,6 +11,8 @@ use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 use crate::simd::{self, BLOCK, BatchCall, Lanes, MAX_WIDTH};
 use crate::unrolled::{Margins, are_plain, coordinates, is_singular};
 use crate::{Arm, SerialChain, Unrolled};
+
+pub use lengths::LengthMismatch;
 
 /// A result of a method, in parts as a kernel returns them, each of numbers in a row.
 trait Slots {
@@ -199,25 +203,29 @@ macro_rules! methods {
     ($($batch:ident $method:ident(q $(, $other:ident)*) -> $output:ty = $kernel:ident |$result:pat_param| ($($part:ident),+) $(, $margins:ident)?;)+) => {
         /// An arm that computes many states at once.
         ///
-        /// Each method writes as many results as both the states and `out` have room for; lengths may be anything.
+        /// A batch may have any length, but all its slices have the same.
         /// Generated arms run in lanes, four or eight states at a time as the machine allows. Their results are those of the
         /// methods of [`Arm`] to the bit, except on machines whose lanes of `wide` round multiply-adds otherwise than
         /// one double does (none that we know of).
         pub trait ArmBatch<const N: usize>: Arm<N> {
             $(
                 #[doc = concat!("[`Arm::", stringify!($method), "`] for each state.")]
-                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]);
+                ///
+                /// # Errors
+                /// A slice that is not as long as `q`; nothing is written then.
+                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch>;
             )+
         }
 
         /// One by one.
         impl<const N: usize> ArmBatch<N> for SerialChain<N> {
             $(
-                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) {
-                    let count = [q.len(), $($other.len(),)* out.len()].into_iter().min().unwrap_or(0);
-                    for (i, out) in out[..count].iter_mut().enumerate() {
+                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
+                    lengths::check(q.len(), &[$((stringify!($other), $other.len()),)* ("out", out.len())])?;
+                    for (i, out) in out.iter_mut().enumerate() {
                         *out = self.$method(&q[i] $(, &$other[i])*);
                     }
+                    Ok(())
                 }
             )+
         }
@@ -225,7 +233,7 @@ macro_rules! methods {
         /// In lanes.
         impl<A: Unrolled<N> + Arm<N>, const N: usize> ArmBatch<N> for A {
             $(
-                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) {
+                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
                     struct Run<'a, A, const N: usize> {
                         q: &'a [SVector<f64, N>],
                         $($other: &'a [SVector<f64, N>],)*
@@ -248,11 +256,9 @@ macro_rules! methods {
                             }
                         }
                     }
-                    let count = [q.len(), $($other.len(),)* out.len()].into_iter().min().unwrap_or(0);
-                    if count > 0 {
-                        let out = &mut out[..count];
-                        simd::run_batch(Run::<A, N> { q, $($other,)* out, arm: PhantomData });
-                    }
+                    lengths::check(q.len(), &[$((stringify!($other), $other.len()),)* ("out", out.len())])?;
+                    simd::run_batch(Run::<A, N> { q, $($other,)* out, arm: PhantomData });
+                    Ok(())
                 }
             )+
         }
@@ -277,16 +283,20 @@ methods! {
 }
 
 /// Runs `batch` on chunks of the states in parallel: `in_parallel(&q, &mut out, |q, out| arm.mass_matrix_batch(q, out))`.
+///
+/// # Errors
+/// There are more or fewer results than states, and nothing is written; or a chunk's own.
 #[cfg(feature = "rayon")]
 pub fn in_parallel<S: Sync, T: Send>(
     states: &[S],
     out: &mut [T],
-    batch: impl Fn(&[S], &mut [T]) + Sync,
-) {
+    batch: impl Fn(&[S], &mut [T]) -> Result<(), LengthMismatch> + Sync,
+) -> Result<(), LengthMismatch> {
     use rayon::prelude::*;
 
     /// A multiple of every lane's width, and long enough to be worth a thread's while.
     const CHUNK: usize = 256;
+    lengths::check(states.len(), &[("out", out.len())])?;
     let chunks = states.par_chunks(CHUNK).zip(out.par_chunks_mut(CHUNK));
-    chunks.for_each(|(states, out)| batch(states, out));
+    chunks.try_for_each(|(states, out)| batch(states, out))
 }
