@@ -109,7 +109,8 @@ macro_rules! methods {
         impl<const N: usize> ArmBatch<N> for SerialChain<N> {
             $(
                 fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
-                    lengths::check(q.len(), &[$((stringify!($other), $other.len()),)* ("out", out.len())])?;
+                    $(lengths::check(q.len(), stringify!($other), $other.len())?;)*
+                    lengths::check(q.len(), "out", out.len())?;
                     for (i, out) in out.iter_mut().enumerate() {
                         *out = self.$method(&q[i] $(, &$other[i])*);
                     }
@@ -151,7 +152,8 @@ macro_rules! methods {
                             }
                         }
                     }
-                    lengths::check(q.len(), &[$((stringify!($other), $other.len()),)* ("out", out.len())])?;
+                    $(lengths::check(q.len(), stringify!($other), $other.len())?;)*
+                    lengths::check(q.len(), "out", out.len())?;
                     simd::run_batch(&mut Run { arm: self, q, $($other,)* out }, q.len());
                     Ok(())
                 }
@@ -191,7 +193,7 @@ pub fn in_parallel<S: Sync, T: Send>(
 
     /// A multiple of every lane's width, and long enough to be worth a thread's while.
     const CHUNK: usize = 256;
-    lengths::check(states.len(), &[("out", out.len())])?;
+    lengths::check(states.len(), "out", out.len())?;
     let chunks = states.par_chunks(CHUNK).zip(out.par_chunks_mut(CHUNK));
     chunks.try_for_each(|(states, out)| batch(states, out))
 }

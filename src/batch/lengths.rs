@@ -12,19 +12,23 @@ pub struct LengthMismatch {
     pub length: usize,
 }
 
-/// Whether every slice has an entry for each state.
+/// Whether a slice has an entry for each state.
 ///
 /// # Errors
-/// The first that has not.
-pub(super) fn check(states: usize, slices: &[(&'static str, usize)]) -> Result<(), LengthMismatch> {
-    for &(slice, length) in slices {
-        if length != states {
-            return Err(LengthMismatch {
-                states,
-                slice,
-                length,
-            });
-        }
+/// It has not.
+#[inline]
+pub(super) fn check(
+    states: usize,
+    slice: &'static str,
+    length: usize,
+) -> Result<(), LengthMismatch> {
+    if length == states {
+        Ok(())
+    } else {
+        Err(LengthMismatch {
+            states,
+            slice,
+            length,
+        })
     }
-    Ok(())
 }

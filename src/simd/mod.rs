@@ -149,8 +149,10 @@ const fn worth(width: usize, done: usize, states: usize) -> usize {
 fn run_in_lanes<C: BatchCall>(call: &mut C, states: usize) -> usize {
     let mut done = 0;
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    if Instructions::in_use() >= Instructions::Avx2 {
-        if const { C::LEAST_WIDTH <= 8 } && Instructions::in_use() >= Instructions::Avx512 {
+    let set = Instructions::in_use();
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    if set >= Instructions::Avx2 {
+        if const { C::LEAST_WIDTH <= 8 } && set >= Instructions::Avx512 {
             done = worth(8, 0, states);
             if done > 0 {
                 // SAFETY: the processor has both.
