@@ -1,157 +1,52 @@
-//! [`ArmBatch`]: every method of [`Arm`] for many states at once, in lanes.
+//! [`ArmBatch`]: every method of [`Arm`] for many states at once, in lanes where that is quicker than a loop over single calls.
+//!
+//! The rule, measured by `benches/batch.rs`: a register has to hold at least two doubles; where a result is a matrix for each
+//! joint (∂J, ∂M, and M with ∂M), at least four, since there writing the numbers takes as long as computing them. Lanes are filled
+//! with states from the first on. The last few states are computed with some before them once more if they need three quarters
+//! of the lanes, or else one by one, and so is a batch of fewer states than the narrowest lanes.
 
-use core::marker::PhantomData;
-use core::slice;
+mod lengths;
+mod slots;
 
-use bytemuck::cast_slice_mut;
+use core::ops::Range;
+
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 
 use crate::simd::{self, BLOCK, BatchCall, Lanes, MAX_WIDTH};
 use crate::unrolled::{are_plain, coordinates};
 use crate::{Arm, SerialChain, Unrolled};
 
-/// A result of a method, in parts as a kernel returns them, each of numbers in a row.
-trait Slots {
-    /// Where the numbers of a part go.
-    fn part(&mut self, part: usize) -> &mut [f64];
-
-    /// What the method returns where the task is singular, if it has a part of w_D.
-    fn settle(&mut self) {}
-}
-
-impl Slots for f64 {
-    fn part(&mut self, _: usize) -> &mut [f64] {
-        slice::from_mut(self)
-    }
-
-    fn settle(&mut self) {
-        *self = 0.0;
-    }
-}
-
-impl<const R: usize, const C: usize> Slots for SMatrix<f64, R, C> {
-    fn part(&mut self, _: usize) -> &mut [f64] {
-        self.as_mut_slice()
-    }
-}
-
-impl<const R: usize, const C: usize, const K: usize> Slots for [SMatrix<f64, R, C>; K] {
-    fn part(&mut self, _: usize) -> &mut [f64] {
-        cast_slice_mut(self)
-    }
-}
-
-impl Slots for IsometryMatrix3<f64> {
-    fn part(&mut self, part: usize) -> &mut [f64] {
-        match part {
-            0 => self.rotation.matrix_mut_unchecked().as_mut_slice(),
-            _ => self.translation.vector.as_mut_slice(),
-        }
-    }
-}
-
-impl<const N: usize> Slots for (f64, SVector<f64, N>) {
-    fn part(&mut self, part: usize) -> &mut [f64] {
-        match part {
-            0 => slice::from_mut(&mut self.0),
-            _ => self.1.as_mut_slice(),
-        }
-    }
-
-    fn settle(&mut self) {
-        *self = (0.0, SVector::zeros());
-    }
-}
-
-impl<const N: usize> Slots for (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) {
-    fn part(&mut self, part: usize) -> &mut [f64] {
-        match part {
-            0 => self.0.as_mut_slice(),
-            _ => cast_slice_mut(&mut self.1),
-        }
-    }
-}
-
-impl<const N: usize> Slots for (SMatrix<f64, 6, N>, f64, SVector<f64, N>) {
-    fn part(&mut self, part: usize) -> &mut [f64] {
-        match part {
-            0 => self.0.as_mut_slice(),
-            1 => slice::from_mut(&mut self.1),
-            _ => self.2.as_mut_slice(),
-        }
-    }
-
-    fn settle(&mut self) {
-        self.1 = 0.0;
-        self.2 = SVector::zeros();
-    }
-}
-
-/// A part of what a kernel returns on lanes `R`.
-trait Numbers<R> {
-    /// Its numbers in a row.
-    fn numbers(&self) -> &[R];
-}
-
-impl<R: Lanes> Numbers<R> for R {
-    #[inline(always)]
-    fn numbers(&self) -> &[R] {
-        slice::from_ref(self)
-    }
-}
-
-impl<R: Lanes, const K: usize> Numbers<R> for [R; K] {
-    #[inline(always)]
-    fn numbers(&self) -> &[R] {
-        self
-    }
-}
-
-impl<R: Lanes, const K: usize, const L: usize> Numbers<R> for [[R; K]; L] {
-    #[inline(always)]
-    fn numbers(&self) -> &[R] {
-        self.as_flattened()
-    }
-}
-
-impl<R: Lanes, const K: usize, const L: usize, const M: usize> Numbers<R> for [[[R; K]; L]; M] {
-    #[inline(always)]
-    fn numbers(&self) -> &[R] {
-        self.as_flattened().as_flattened()
-    }
-}
+pub use lengths::LengthMismatch;
+use slots::{Numbers, Slots};
 
 /// Gives each lane's result its numbers of a part.
 #[inline(always)]
 fn scatter<R: Lanes, T: Slots>(numbers: &[R], part: usize, out: &mut [T]) {
     let (blocks, rest) = numbers.as_chunks::<BLOCK>();
-    let mut start = 0;
-    for block in blocks {
+    for (index, block) in blocks.iter().enumerate() {
         let rows = R::transpose(block);
         for (result, row) in out.iter_mut().zip(&rows) {
-            result.part(part)[start..][..BLOCK].copy_from_slice(row);
+            result.part(part)[index * BLOCK..][..BLOCK].copy_from_slice(row);
         }
-        start += BLOCK;
     }
-    if !rest.is_empty() {
-        let mut block = [rest[0]; BLOCK];
+    if let Some(first) = rest.first() {
+        let mut block = [*first; BLOCK];
         block[..rest.len()].copy_from_slice(rest);
         let rows = R::transpose(&block);
         for (result, row) in out.iter_mut().zip(&rows) {
-            result.part(part)[start..].copy_from_slice(&row[..rest.len()]);
+            result.part(part)[blocks.len() * BLOCK..].copy_from_slice(&row[..rest.len()]);
         }
     }
 }
 
-/// The lanes of at most as many vectors; the last one repeats where there are fewer.
+/// As many vectors as lanes, a component in each.
 #[inline(always)]
 fn gather<R: Lanes, const N: usize>(vectors: &[SVector<f64, N>]) -> [R; N] {
-    let last = vectors.len() - 1;
     let mut lanes = [R::of(0.0); N];
     for (joint, lanes) in lanes.iter_mut().enumerate() {
         let mut numbers = [0.0; MAX_WIDTH];
-        for (lane, number) in numbers[..R::WIDTH].iter_mut().enumerate() {
-            *number = vectors[lane.min(last)][joint];
+        for (number, vector) in numbers.iter_mut().zip(vectors) {
+            *number = vector[joint];
         }
         *lanes = R::load(&numbers);
     }
@@ -195,66 +90,74 @@ fn settle<A: Unrolled<N>, R: Lanes, T: Slots, const N: usize>(
     }
 }
 
-/// Every method: its name in a batch, its own, the first argument `q` and the others, the result, the kernel,
-/// and what of the kernel's returns are the result's parts and, of w_D, the volume.
+/// Every method: its name in a batch, its own, the first argument `q` and the others, the result, the kernel, from registers
+/// of how many doubles on lanes are quicker, and what of the kernel's returns are the result's parts and, of w_D, the volume.
 macro_rules! methods {
-    ($($batch:ident $method:ident(q $(, $other:ident)*) -> $output:ty = $kernel:ident |$result:pat_param| ($($part:ident),+) $(, $volume:ident)?;)+) => {
+    ($($batch:ident $method:ident(q $(, $other:ident)*) -> $output:ty = $kernel:ident from $width:literal |$result:pat_param| ($($index:tt $part:ident),+) $(, $volume:ident)?;)+) => {
         /// An arm that computes many states at once.
         ///
-        /// Each method writes as many results as both the states and `out` have room for; lengths may be anything.
-        /// Generated arms run in lanes, four or eight states at a time as the machine allows. Their results are those of the
-        /// methods of [`Arm`] to the bit, except on machines whose lanes of `wide` round multiply-adds otherwise than
-        /// one double does (none that we know of).
+        /// A batch may have any length, but all its slices have the same. Results are those of the methods of [`Arm`] to the bit.
         pub trait ArmBatch<const N: usize>: Arm<N> {
             $(
                 #[doc = concat!("[`Arm::", stringify!($method), "`] for each state.")]
-                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]);
+                ///
+                /// # Errors
+                /// A slice that is not as long as `q`; nothing is written then.
+                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch>;
             )+
         }
 
         /// One by one.
         impl<const N: usize> ArmBatch<N> for SerialChain<N> {
             $(
-                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) {
-                    let count = [q.len(), $($other.len(),)* out.len()].into_iter().min().unwrap_or(0);
-                    for (i, out) in out[..count].iter_mut().enumerate() {
+                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
+                    $(lengths::check(q.len(), stringify!($other), $other.len())?;)*
+                    lengths::check(q.len(), "out", out.len())?;
+                    for (i, out) in out.iter_mut().enumerate() {
                         *out = self.$method(&q[i] $(, &$other[i])*);
                     }
+                    Ok(())
                 }
             )+
         }
 
-        /// In lanes.
+        /// In lanes where they are worth it.
         impl<A: Unrolled<N> + Arm<N>, const N: usize> ArmBatch<N> for A {
             $(
-                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) {
+                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
                     struct Run<'a, A, const N: usize> {
+                        arm: &'a A,
                         q: &'a [SVector<f64, N>],
                         $($other: &'a [SVector<f64, N>],)*
                         out: &'a mut [$output],
-                        arm: PhantomData<A>,
                     }
-                    impl<A: Unrolled<N>, const N: usize> BatchCall for Run<'_, A, N> {
+                    impl<A: Unrolled<N> + Arm<N>, const N: usize> BatchCall for Run<'_, A, N> {
+                        const LEAST_WIDTH: usize = $width;
+
                         #[inline(always)]
-                        fn run<R: Lanes>(self) {
-                            for (chunk, out) in self.out.chunks_mut(R::WIDTH).enumerate() {
-                                let states = chunk * R::WIDTH..chunk * R::WIDTH + out.len();
-                                let q = gather_coordinates::<A, R, N>(&self.q[states.clone()]);
-                                $(let $other = gather::<R, N>(&self.$other[states.clone()]);)*
+                        fn in_lanes<R: Lanes>(&mut self, states: Range<usize>) {
+                            for start in states.clone().step_by(R::WIDTH) {
+                                let start = start.min(states.end - R::WIDTH);
+                                let q = gather_coordinates::<A, R, N>(&self.q[start..][..R::WIDTH]);
+                                $(let $other = gather::<R, N>(&self.$other[start..][..R::WIDTH]);)*
+                                let out = &mut self.out[start..][..R::WIDTH];
                                 let $result = A::$kernel::<R>(&q $(, &$other)*);
-                                let parts = [$(Numbers::<R>::numbers(&$part)),+];
-                                for (part, numbers) in parts.into_iter().enumerate() {
-                                    scatter(numbers, part, out);
-                                }
+                                $(scatter(Numbers::<R>::numbers(&$part), $index, out);)+
                                 $(settle::<A, R, _, N>(&q, $volume, out);)?
                             }
                         }
+
+                        #[inline]
+                        fn one_by_one(&mut self, states: Range<usize>) {
+                            for i in states {
+                                self.out[i] = self.arm.$method(&self.q[i] $(, &self.$other[i])*);
+                            }
+                        }
                     }
-                    let count = [q.len(), $($other.len(),)* out.len()].into_iter().min().unwrap_or(0);
-                    if count > 0 {
-                        let out = &mut out[..count];
-                        simd::run_batch(Run::<A, N> { q, $($other,)* out, arm: PhantomData });
-                    }
+                    $(lengths::check(q.len(), stringify!($other), $other.len())?;)*
+                    lengths::check(q.len(), "out", out.len())?;
+                    simd::run_batch(&mut Run { arm: self, q, $($other,)* out }, q.len());
+                    Ok(())
                 }
             )+
         }
@@ -263,32 +166,36 @@ macro_rules! methods {
 
 #[rustfmt::skip]
 methods! {
-    forward_kinematics_batch forward_kinematics(q) -> IsometryMatrix3<f64> = forward_kinematics_kernel |(rotation, translation)| (rotation, translation);
-    geometric_jacobian_batch geometric_jacobian(q) -> SMatrix<f64, 6, N> = geometric_jacobian_kernel |all| (all);
-    jacobian_derivatives_batch jacobian_derivatives(q) -> [SMatrix<f64, 6, N>; N] = jacobian_derivatives_kernel |all| (all);
-    mass_matrix_batch mass_matrix(q) -> SMatrix<f64, N, N> = mass_matrix_kernel |all| (all);
-    mass_matrix_derivatives_batch mass_matrix_derivatives(q) -> [SMatrix<f64, N, N>; N] = mass_matrix_derivatives_kernel |all| (all);
-    dynamic_manipulability_batch dynamic_manipulability(q) -> f64 = dynamic_manipulability_kernel |(value, volume)| (value), volume;
-    dynamic_manipulability_gradient_batch dynamic_manipulability_gradient(q) -> (f64, SVector<f64, N>) = dynamic_manipulability_gradient_kernel |(value, gradient, volume)| (value, gradient), volume;
-    inverse_dynamics_batch inverse_dynamics(q, qd, qdd) -> SVector<f64, N> = inverse_dynamics_kernel |all| (all);
-    bias_force_batch bias_force(q, qd) -> SVector<f64, N> = bias_force_kernel |all| (all);
-    gravity_torque_batch gravity_torque(q) -> SVector<f64, N> = gravity_torque_kernel |all| (all);
-    forward_dynamics_batch forward_dynamics(q, qd, tau) -> SVector<f64, N> = forward_dynamics_kernel |all| (all);
-    mass_matrix_and_derivatives_batch mass_matrix_and_derivatives(q) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) = mass_matrix_and_derivatives_kernel |(mass, derivatives)| (mass, derivatives);
-    jacobian_and_gradient_batch jacobian_and_gradient(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) = jacobian_and_gradient_kernel |(jacobian, value, gradient, volume)| (jacobian, value, gradient), volume;
+    forward_kinematics_batch forward_kinematics(q) -> IsometryMatrix3<f64> = forward_kinematics_kernel from 2 |(rotation, translation)| (0 rotation, 1 translation);
+    geometric_jacobian_batch geometric_jacobian(q) -> SMatrix<f64, 6, N> = geometric_jacobian_kernel from 2 |all| (0 all);
+    jacobian_derivatives_batch jacobian_derivatives(q) -> [SMatrix<f64, 6, N>; N] = jacobian_derivatives_kernel from 4 |all| (0 all);
+    mass_matrix_batch mass_matrix(q) -> SMatrix<f64, N, N> = mass_matrix_kernel from 2 |all| (0 all);
+    mass_matrix_derivatives_batch mass_matrix_derivatives(q) -> [SMatrix<f64, N, N>; N] = mass_matrix_derivatives_kernel from 4 |all| (0 all);
+    dynamic_manipulability_batch dynamic_manipulability(q) -> f64 = dynamic_manipulability_kernel from 2 |(value, volume)| (0 value), volume;
+    dynamic_manipulability_gradient_batch dynamic_manipulability_gradient(q) -> (f64, SVector<f64, N>) = dynamic_manipulability_gradient_kernel from 2 |(value, gradient, volume)| (0 value, 1 gradient), volume;
+    inverse_dynamics_batch inverse_dynamics(q, qd, qdd) -> SVector<f64, N> = inverse_dynamics_kernel from 2 |all| (0 all);
+    bias_force_batch bias_force(q, qd) -> SVector<f64, N> = bias_force_kernel from 2 |all| (0 all);
+    gravity_torque_batch gravity_torque(q) -> SVector<f64, N> = gravity_torque_kernel from 2 |all| (0 all);
+    forward_dynamics_batch forward_dynamics(q, qd, tau) -> SVector<f64, N> = forward_dynamics_kernel from 2 |all| (0 all);
+    mass_matrix_and_derivatives_batch mass_matrix_and_derivatives(q) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) = mass_matrix_and_derivatives_kernel from 4 |(mass, derivatives)| (0 mass, 1 derivatives);
+    jacobian_and_gradient_batch jacobian_and_gradient(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) = jacobian_and_gradient_kernel from 2 |(jacobian, value, gradient, volume)| (0 jacobian, 1 value, 2 gradient), volume;
 }
 
 /// Runs `batch` on chunks of the states in parallel: `in_parallel(&q, &mut out, |q, out| arm.mass_matrix_batch(q, out))`.
+///
+/// # Errors
+/// There are more or fewer results than states, and nothing is written; or a chunk's own.
 #[cfg(feature = "rayon")]
 pub fn in_parallel<S: Sync, T: Send>(
     states: &[S],
     out: &mut [T],
-    batch: impl Fn(&[S], &mut [T]) + Sync,
-) {
+    batch: impl Fn(&[S], &mut [T]) -> Result<(), LengthMismatch> + Sync,
+) -> Result<(), LengthMismatch> {
     use rayon::prelude::*;
 
     /// A multiple of every lane's width, and long enough to be worth a thread's while.
     const CHUNK: usize = 256;
+    lengths::check(states.len(), "out", out.len())?;
     let chunks = states.par_chunks(CHUNK).zip(out.par_chunks_mut(CHUNK));
-    chunks.for_each(|(states, out)| batch(states, out));
+    chunks.try_for_each(|(states, out)| batch(states, out))
 }

@@ -37,7 +37,7 @@ pub mod trigonometry;
 pub mod unrolled;
 
 pub use arm::Arm;
-pub use batch::ArmBatch;
+pub use batch::{ArmBatch, LengthMismatch};
 pub use compensation::{Compensation, Controller, Cycle, Law, Projector, Status};
 #[cfg(feature = "table")]
 pub use diagnostics::TableErrors;

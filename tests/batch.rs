@@ -2,12 +2,12 @@
 
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 use ulna::proof::{State, states};
-use ulna::{Arm, ArmBatch, SerialChain, Unrolled as _};
+use ulna::{Arm, ArmBatch, LengthMismatch, Unrolled as _};
 use ulna_generated::{Oblique6, Planar2r, Ssrms};
 use wide::{f32x8, f64x8};
 
-/// None, fewer than the lanes, as many, and some over.
-const LENGTHS: [usize; 7] = [0, 1, 3, 4, 8, 11, 33];
+/// None, fewer than the lanes, as many, and few or many over.
+const LENGTHS: [usize; 8] = [0, 1, 3, 4, 8, 11, 15, 33];
 
 fn column<const N: usize>(
     all: &[State<N>],
@@ -22,7 +22,8 @@ macro_rules! same {
         for length in LENGTHS {
             let all: Vec<State<$n>> = states(&$chain).take(length).collect();
             let mut out = vec![$zero; length];
-            $arm.$batch($(&column(&all, |state| state.$field)),+, &mut out);
+            $arm.$batch($(&column(&all, |state| state.$field)),+, &mut out)
+                .expect("slices of one length");
             for (state, result) in all.iter().zip(&out) {
                 assert_eq!(*result, $arm.$method($(&state.$field),+), "{} of {length}", stringify!($batch));
             }
@@ -208,21 +209,71 @@ fn singular_tasks_are_settled_lane_by_lane() {
     let stretched = SVector::<f64, 2>::zeros();
     let q = [regular, stretched, regular, stretched, stretched];
     let mut out = [(1.0, SVector::zeros()); 5];
-    Planar2r.dynamic_manipulability_gradient_batch(&q, &mut out);
+    Planar2r
+        .dynamic_manipulability_gradient_batch(&q, &mut out)
+        .expect("slices of one length");
     for (q, result) in q.iter().zip(out) {
         assert_eq!(result, Planar2r.dynamic_manipulability_gradient(q));
         assert_eq!(result.0 == 0.0, *q == stretched);
     }
 }
 
+/// A slice of another length is named, and nothing is written, by either backend.
 #[test]
-fn the_shorter_length_counts() {
-    let q = [SVector::<f64, 2>::zeros(); 3];
-    let mut out = [SMatrix::<f64, 2, 2>::zeros(); 5];
-    Planar2r.mass_matrix_batch(&q, &mut out);
-    assert_eq!(out[2], Planar2r.mass_matrix(&q[0]));
-    assert_eq!(out[3], SMatrix::<f64, 2, 2>::zeros());
-    let chain: SerialChain<2> = Planar2r::CHAIN;
-    chain.mass_matrix_batch(&q, &mut out[..1]);
-    assert_eq!(out[0], chain.mass_matrix(&q[0]));
+fn slices_of_different_lengths_are_an_error() {
+    fn refuses(arm: &impl ArmBatch<2>) {
+        let zero = SVector::<f64, 2>::zeros();
+        let (three, five) = ([zero; 3], [zero; 5]);
+        let untouched = SVector::repeat(7.0);
+        let mut out = [untouched; 4];
+        let mismatch = |slice, length| LengthMismatch {
+            states: 3,
+            slice,
+            length,
+        };
+        let results = [
+            arm.inverse_dynamics_batch(&three, &five, &three, &mut out[..3]),
+            arm.inverse_dynamics_batch(&three, &three, &[], &mut out[..3]),
+            arm.forward_dynamics_batch(&three, &three, &five, &mut out),
+            arm.gravity_torque_batch(&three, &mut out),
+            arm.gravity_torque_batch(&three, &mut out[..2]),
+        ];
+        let slices = [("qd", 5), ("qdd", 0), ("tau", 5), ("out", 4), ("out", 2)];
+        assert_eq!(
+            results,
+            slices.map(|(slice, length)| Err(mismatch(slice, length)))
+        );
+        assert_eq!(out, [untouched; 4]);
+    }
+    refuses(&Planar2r);
+    refuses(&Planar2r::CHAIN);
+    let mismatch = LengthMismatch {
+        states: 3,
+        slice: "out",
+        length: 4,
+    };
+    assert_eq!(
+        mismatch.to_string(),
+        "`out` has 4 entries in a batch of 3 states"
+    );
+}
+
+#[cfg(feature = "rayon")]
+#[test]
+fn chunks_in_parallel_are_one_batch() {
+    use ulna::batch::in_parallel;
+
+    let q: Vec<SVector<f64, 2>> = states(&Planar2r::CHAIN).take(700).map(|s| s.q).collect();
+    let mut out = vec![SMatrix::<f64, 2, 2>::zeros(); q.len()];
+    let batch = |q: &[_], out: &mut [_]| Planar2r.mass_matrix_batch(q, out);
+    assert_eq!(in_parallel(&q, &mut out, batch), Ok(()));
+    for (q, result) in q.iter().zip(&out) {
+        assert_eq!(*result, Planar2r.mass_matrix(q));
+    }
+    let mismatch = LengthMismatch {
+        states: 700,
+        slice: "out",
+        length: 256,
+    };
+    assert_eq!(in_parallel(&q, &mut out[..256], batch), Err(mismatch));
 }

@@ -117,30 +117,25 @@ impl Lanes for Avx2 {
         numbers
     }
 
+    /// By pairs of numbers: nothing crosses the halves of a register but the stores.
     #[inline(always)]
     fn transpose(block: &[Self; BLOCK]) -> [[f64; BLOCK]; MAX_WIDTH] {
-        let [a, b, c, d, e, f, g, h] = block;
-        let (left, right) = (quarter([a.0, b.0, c.0, d.0]), quarter([e.0, f.0, g.0, h.0]));
         let mut rows = [[0.0; BLOCK]; MAX_WIDTH];
-        for lane in 0..4 {
-            rows[lane][..4].copy_from_slice(&<[f64; 4]>::from(Self(left[lane])));
-            rows[lane][4..].copy_from_slice(&<[f64; 4]>::from(Self(right[lane])));
+        for start in [0, 2, 4, 6] {
+            let (a, b) = (block[start].0, block[start + 1].0);
+            unsafe {
+                let (even, odd) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
+                let halves = [
+                    _mm256_castpd256_pd128(even),
+                    _mm256_castpd256_pd128(odd),
+                    _mm256_extractf128_pd::<1>(even),
+                    _mm256_extractf128_pd::<1>(odd),
+                ];
+                for lane in 0..4 {
+                    _mm_storeu_pd(rows[lane][start..][..2].as_mut_ptr(), halves[lane]);
+                }
+            }
         }
         rows
-    }
-}
-
-/// A 4×4 block, transposed.
-#[inline(always)]
-fn quarter([a, b, c, d]: [__m256d; 4]) -> [__m256d; 4] {
-    unsafe {
-        let (ab, cd) = (_mm256_unpacklo_pd(a, b), _mm256_unpacklo_pd(c, d));
-        let (ab_odd, cd_odd) = (_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d));
-        [
-            _mm256_permute2f128_pd::<0x20>(ab, cd),
-            _mm256_permute2f128_pd::<0x20>(ab_odd, cd_odd),
-            _mm256_permute2f128_pd::<0x31>(ab, cd),
-            _mm256_permute2f128_pd::<0x31>(ab_odd, cd_odd),
-        ]
     }
 }

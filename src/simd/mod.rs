@@ -13,13 +13,17 @@ mod avx2;
 mod avx512;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod fused;
+mod instructions;
 mod plain;
 mod portable;
+
+use core::ops::Range;
 
 use bytemuck::Pod;
 
 use crate::Real;
 
+pub use instructions::Instructions;
 pub use plain::Plain;
 
 /// A [`Real`] of one double in memory.
@@ -67,27 +71,26 @@ pub const MAX_WIDTH: usize = 8;
 /// How many results are handed out at once.
 pub const BLOCK: usize = 8;
 
-/// A computation on lanes.
+/// A computation for many states, on lanes or one by one.
 pub trait BatchCall {
-    /// Computes it on lanes `R`. To be inlined always: it is compiled for the instructions of its caller.
-    fn run<R: Lanes>(self);
+    /// Lanes are quicker where a register holds at least so many doubles.
+    const LEAST_WIDTH: usize;
+
+    /// Computes those states on lanes `R`; the last ones together with some before them, if they do not fill the lanes.
+    /// To be inlined always: it is compiled for the instructions of its caller.
+    fn in_lanes<R: Lanes>(&mut self, states: Range<usize>);
+
+    /// Computes those states by single calls.
+    fn one_by_one(&mut self, states: Range<usize>);
 }
 
 /// Runs `call` on scalars that fuse multiply-adds if the machine does.
 #[inline]
 pub fn run<C: Call>(call: C) -> C::Output {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    return run_on(has_avx2(), call);
+    return run_on(Instructions::in_use() >= Instructions::Avx2, call);
     #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
     return call.run::<f64>();
-}
-
-/// Runs `call` on the widest lanes of the machine.
-pub fn run_batch<C: BatchCall>(call: C) {
-    #[cfg(all(feature = "std", target_arch = "x86_64"))]
-    return run_batch_on(has_avx512(), has_avx2(), call);
-    #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
-    return call.run::<wide::f64x4>();
 }
 
 // The processor is asked elsewhere: while a function holds a call and something else might unwind, the compiler puts a
@@ -105,46 +108,92 @@ fn run_on<C: Call>(has_avx2: bool, call: C) -> C::Output {
 }
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
-fn run_batch_on<C: BatchCall>(has_avx512: bool, has_avx2: bool, call: C) {
-    if has_avx512 {
-        // SAFETY: the processor has both.
-        unsafe { run_avx512(call) }
-    } else if has_avx2 {
-        // SAFETY: the processor has both.
-        unsafe { run_avx2(call) }
-    } else {
-        call.run::<wide::f64x4>();
-    }
-}
-
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[inline]
-fn has_avx512() -> bool {
-    std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512dq")
-}
-
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
-#[inline]
-fn has_avx2() -> bool {
-    std::is_x86_feature_detected!("avx2") && std::is_x86_feature_detected!("fma")
-}
-
-#[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[target_feature(enable = "avx2,fma")]
 fn run_fused<C: Call>(call: C) -> C::Output {
     call.run::<fused::Fused>()
 }
 
+/// Runs `call` for so many states: on the widest lanes that they fill, the rest on narrower ones or one by one.
+#[inline]
+pub fn run_batch<C: BatchCall>(call: &mut C, states: usize) {
+    let done = run_in_lanes(call, states);
+    call.one_by_one(done..states);
+}
+
+/// Doubles in a register of the instructions that the program was compiled for.
+const COMPILED_WIDTH: usize = if cfg!(target_feature = "avx") {
+    4
+} else if cfg!(any(
+    target_feature = "sse2",
+    target_feature = "neon",
+    target_feature = "simd128"
+)) {
+    2
+} else {
+    1
+};
+
+/// The end of those states, from the first that is not done, that are worth lanes of such a width: lanes are filled, or, at the
+/// end of the batch, at most a quarter of them computes once more what is done.
+const fn worth(width: usize, done: usize, states: usize) -> usize {
+    let rest = (states - done) % width;
+    if states >= width && 4 * rest >= 3 * width {
+        states
+    } else {
+        states - rest
+    }
+}
+
+/// Runs `call` for the first states, as many as are worth lanes, and returns how many.
+#[inline]
+fn run_in_lanes<C: BatchCall>(call: &mut C, states: usize) -> usize {
+    let mut done = 0;
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    let set = Instructions::in_use();
+    #[cfg(all(feature = "std", target_arch = "x86_64"))]
+    if set >= Instructions::Avx2 {
+        if const { C::LEAST_WIDTH <= 8 } && set >= Instructions::Avx512 {
+            done = worth(8, 0, states);
+            if done > 0 {
+                // SAFETY: the processor has both.
+                unsafe { run_avx512(call, 0..done) }
+            }
+        }
+        if const { C::LEAST_WIDTH <= 4 } {
+            let start = done;
+            done = worth(4, start, states);
+            if start < done {
+                // SAFETY: the processor has both.
+                unsafe { run_avx2(call, start..done) }
+            }
+        }
+        return done;
+    }
+    if const { C::LEAST_WIDTH <= COMPILED_WIDTH } {
+        done = worth(4, 0, states);
+        if done > 0 {
+            run_compiled(call, 0..done);
+        }
+    }
+    done
+}
+
+/// A function of its own, so that what is not worth lanes does not pay for their place on the stack.
+#[inline(never)]
+fn run_compiled<C: BatchCall>(call: &mut C, states: Range<usize>) {
+    call.in_lanes::<wide::f64x4>(states);
+}
+
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[target_feature(enable = "avx2,fma")]
-fn run_avx2<C: BatchCall>(call: C) {
-    call.run::<avx2::Avx2>();
+fn run_avx2<C: BatchCall>(call: &mut C, states: Range<usize>) {
+    call.in_lanes::<avx2::Avx2>(states);
 }
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 #[target_feature(enable = "avx512f,avx512dq")]
-fn run_avx512<C: BatchCall>(call: C) {
-    call.run::<avx512::Avx512>();
+fn run_avx512<C: BatchCall>(call: &mut C, states: Range<usize>) {
+    call.in_lanes::<avx512::Avx512>(states);
 }
 
 /// Operators of a newtype, each by an expression over both fields.

@@ -85,7 +85,8 @@ macro_rules! batch {
             unsafe {
                 let vectors = |i: usize| slice::from_raw_parts(x.add(i * count), count);
                 let out = slice::from_raw_parts_mut(out.cast::<$result>(), count);
-                $arm.$method($(vectors($argument)),+, out);
+                let written = $arm.$method($(vectors($argument)),+, out);
+                assert!(written.is_ok(), "all slices have `count` entries");
             }
         }
         Some(kernel as BatchKernel)

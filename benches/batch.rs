@@ -1,0 +1,159 @@
+//! Batches against loops over single calls: every method of [`ArmBatch`], every arm of `arms/`.
+//!
+//! `cargo bench --bench batch`; `-- ssrms/` or `-- mass_matrix` picks an arm or a method. What is printed is time in a batch
+//! divided by time in a loop, both into the same slice. They take turns, so that a machine whose speed drifts slows both
+//! alike; the median of the rounds' ratios counts.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use ulna::ArmBatch;
+use ulna::nalgebra::{IsometryMatrix3, SMatrix, SVector};
+use ulna::proof::{State, states};
+use ulna::simd::Instructions;
+
+/// States in a batch.
+const LENGTHS: [usize; 5] = [1, 3, 7, 8, 1024];
+
+/// Turns of each contestant.
+const ROUNDS: usize = 61;
+
+/// A turn lasts so long, that the clock's steps do not matter.
+const TURN: Duration = Duration::from_micros(60);
+
+/// How long `work` takes, many times in a row.
+fn time<T>(repeats: usize, work: impl Fn(&mut [T]), out: &mut [T]) -> f64 {
+    let start = Instant::now();
+    for _ in 0..repeats {
+        work(out);
+    }
+    start.elapsed().as_secs_f64()
+}
+
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers[numbers.len() / 2]
+}
+
+/// Seconds a repeat of `single`, and the median of the rounds' ratios.
+fn compare<T>(batch: impl Fn(&mut [T]), single: impl Fn(&mut [T]), out: &mut [T]) -> (f64, f64) {
+    let mut repeats = 1;
+    while time(repeats, &single, out) < TURN.as_secs_f64() {
+        repeats *= 2;
+    }
+    let mut round = |first: bool| {
+        let before = first.then(|| time(repeats, &single, out));
+        let batch = time(repeats, &batch, out);
+        (before.unwrap_or_else(|| time(repeats, &single, out)), batch)
+    };
+    round(true);
+    let rounds: Vec<(f64, f64)> = (0..ROUNDS).map(|i| round(i % 2 == 0)).collect();
+    let times = rounds.iter().map(|(single, _)| *single).collect();
+    let ratios = rounds
+        .iter()
+        .map(|(single, batch)| batch / single)
+        .collect();
+    (median(times) / repeats as f64, median(ratios))
+}
+
+/// Whether the command line asks for `name`: it does unless it asks for others.
+fn is_wanted(name: &str) -> bool {
+    let mut filters = std::env::args()
+        .skip(1)
+        .filter(|a| !a.starts_with("--"))
+        .peekable();
+    filters.peek().is_none() || filters.any(|filter| name.contains(&filter))
+}
+
+fn column<const N: usize>(
+    all: &[State<N>],
+    of: fn(&State<N>) -> SVector<f64, N>,
+) -> Vec<SVector<f64, N>> {
+    all.iter().map(of).collect()
+}
+
+fn arm<A: ArmBatch<N>, const N: usize>(name: &str, arm: &A, all: &[State<N>]) {
+    let (vector, square) = (SVector::<f64, N>::zeros(), SMatrix::<f64, N, N>::zeros());
+    let jacobian = SMatrix::<f64, 6, N>::zeros();
+    macro_rules! methods {
+        ($($batch:ident $method:ident($($argument:ident),+) $zero:expr;)+) => {
+            $({
+                let name = format!("{name}/{}", stringify!($method));
+                if is_wanted(&name) {
+                    let mut cells = String::new();
+                    let mut nanoseconds = 0.0;
+                    for length in LENGTHS {
+                        let all = &all[..length];
+                        $(let $argument = column(all, |state| state.$argument);)+
+                        let mut out = vec![$zero; length];
+                        let batch = |out: &mut [_]| {
+                            let written = arm.$batch($(black_box(&$argument)),+, black_box(out));
+                            assert!(written.is_ok());
+                        };
+                        let single = |out: &mut [_]| {
+                            $(let $argument = black_box(&$argument[..]);)+
+                            for (i, out) in black_box(out).iter_mut().enumerate() {
+                                *out = arm.$method($(&$argument[i]),+);
+                            }
+                        };
+                        let (seconds, ratio) = compare(batch, single, &mut out);
+                        nanoseconds = seconds / length as f64 * 1e9;
+                        cells += &format!("{ratio:>7.2}");
+                    }
+                    println!("{name:<48}{nanoseconds:>8.0}{cells}");
+                }
+            })+
+        };
+    }
+    methods! {
+        forward_kinematics_batch forward_kinematics(q) IsometryMatrix3::<f64>::identity();
+        geometric_jacobian_batch geometric_jacobian(q) jacobian;
+        jacobian_derivatives_batch jacobian_derivatives(q) [jacobian; N];
+        mass_matrix_batch mass_matrix(q) square;
+        mass_matrix_derivatives_batch mass_matrix_derivatives(q) [square; N];
+        mass_matrix_and_derivatives_batch mass_matrix_and_derivatives(q) (square, [square; N]);
+        dynamic_manipulability_batch dynamic_manipulability(q) 0.0;
+        dynamic_manipulability_gradient_batch dynamic_manipulability_gradient(q) (0.0, vector);
+        jacobian_and_gradient_batch jacobian_and_gradient(q) (jacobian, 0.0, vector);
+        inverse_dynamics_batch inverse_dynamics(q, qd, qdd) vector;
+        bias_force_batch bias_force(q, qd) vector;
+        gravity_torque_batch gravity_torque(q) vector;
+        forward_dynamics_batch forward_dynamics(q, qd, tau) vector;
+    }
+}
+
+fn every_arm() {
+    macro_rules! each {
+        ($(($arm:ident, $name:ident, $joints:literal))*) => {
+            $({
+                let all: Vec<State<$joints>> = states(&ulna_generated::$arm::CHAIN).take(1024).collect();
+                arm(stringify!($name), &ulna_generated::$arm, &all);
+            })*
+        };
+    }
+    ulna_generated::for_each_arm!(each);
+}
+
+fn main() {
+    let lengths: String = LENGTHS
+        .iter()
+        .map(|length| format!("{length:>7}"))
+        .collect();
+    let sets = [
+        Instructions::Avx512,
+        Instructions::Avx2,
+        Instructions::Compiled,
+    ];
+    for set in sets
+        .into_iter()
+        .filter(|set| *set <= Instructions::of_machine())
+    {
+        set.limit();
+        println!(
+            "{:<48}{:>8}{lengths}",
+            format!("{set:?}: batch / loop, states:"),
+            "loop, ns"
+        );
+        every_arm();
+    }
+}
