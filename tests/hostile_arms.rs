@@ -299,10 +299,10 @@ fn a_configuration_that_is_no_number_gives_none() {
                     "{q}: {w}"
                 );
                 assert!(gradient.iter().any(|x| x.is_nan()), "{q}: {gradient}");
+                let acceleration = arm.forward_dynamics(&q, &q, &q);
                 assert!(
-                    arm.forward_dynamics(&q, &q, &q)
-                        .iter()
-                        .any(|x| !x.is_finite())
+                    acceleration.iter().any(|x| !x.is_finite()),
+                    "{q}: {acceleration}"
                 );
             }
         }

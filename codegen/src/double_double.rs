@@ -171,7 +171,7 @@ impl Add for DoubleDouble {
         let low = Self::sum(self.low, other.low);
         let carried = Self::quick_sum(high.high, high.low + low.high);
         let sum = Self::quick_sum(carried.high, carried.low + low.low);
-        if sum.high.abs() <= ROUNDING * self.high.abs() {
+        if self.high.is_finite() && sum.high.abs() <= ROUNDING * self.high.abs() {
             // All digits have cancelled.
             return Self::default();
         }

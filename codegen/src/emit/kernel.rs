@@ -71,7 +71,7 @@ fn documentation(method: &Method) -> [String; 4] {
         String::new(),
         format!(" Operations: {operations}, and sine and cosine of {angles} angles."),
         format!(
-            " Error of the worst entry, relative to the largest: {} (the file's head says of what).",
+            " Rounding error of the worst entry, relative to the largest: {}.",
             rounded_up(method.error)
         ),
     ]
