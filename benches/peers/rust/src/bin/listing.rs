@@ -61,7 +61,7 @@ fn listing(program: &Program) -> Value {
     let steps = program.steps.iter();
     let outputs = program.outputs.iter();
     json!({
-        "angles": angles.map(|a| json!({"joints": a.joints, "offset": a.offset})).collect::<Vec<_>>(),
+        "angles": angles.map(|a| json!({"joints": a.joints, "offset": a.offset.to_f64()})).collect::<Vec<_>>(),
         "steps": steps.map(|s| json!([s.op.row().name, operand(s.a), operand(s.b)])).collect::<Vec<_>>(),
         "outputs": outputs.map(|o| json!({
             "name": o.name,
@@ -72,7 +72,7 @@ fn listing(program: &Program) -> Value {
 
 fn operand(operand: Operand) -> Value {
     match operand {
-        Operand::Constant(value) => json!(["number", value]),
+        Operand::Constant(value) => json!(["number", value.to_f64()]),
         Operand::Step(step) => json!(["step", step]),
         Operand::Input(Input::Q(i)) => json!(["q", i]),
         Operand::Input(Input::Sin(angle)) => json!(["sin", angle]),

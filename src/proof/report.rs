@@ -1,0 +1,87 @@
+//! What a comparison found, method by method.
+
+use core::fmt;
+
+/// How far a method of the candidate is from the reference's, at the state where it comes nearest to, or goes farthest beyond,
+/// what is allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviation {
+    /// The method of [`Arm`](crate::Arm).
+    pub method: &'static str,
+    /// The largest error of an entry, relative to what the terms that it is a sum of can amount to: the chain's length for
+    /// positions and J's rows of v, what the joints carry for M and torques, w_D for w_D, w_D or the largest entry for ∇w_D.
+    /// Forward dynamics is judged by what its accelerations need: the error is that of the torques.
+    pub error: f64,
+    /// What rounding alone may leave at that state: 8 (N + 4) ε, times the [condition](super::condition) number of w_D for w_D, and four times that for ∇w_D.
+    pub tolerance: f64,
+}
+
+impl Deviation {
+    pub(super) fn new(method: &'static str) -> Self {
+        Self {
+            method,
+            error: 0.0,
+            tolerance: 0.0,
+        }
+    }
+
+    /// Whether the error is within the tolerance; a NaN is not.
+    pub fn passes(&self) -> bool {
+        self.error <= self.tolerance
+    }
+
+    /// Keeps the worse of this and another state's error.
+    pub(super) fn add(&mut self, error: f64, tolerance: f64) {
+        let excess = |error: f64, tolerance: f64| {
+            if error == 0.0 { 0.0 } else { error / tolerance }
+        };
+        let (old, new) = (excess(self.error, self.tolerance), excess(error, tolerance));
+        // NaN is never less, and stays.
+        if !old.is_nan() && (new >= old || new.is_nan()) {
+            (self.error, self.tolerance) = (error, tolerance);
+        }
+    }
+}
+
+/// The outcome of [`compare`](super::compare): a line for each method of [`Arm`](crate::Arm). Prints as a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// How many states were compared.
+    pub states: usize,
+    /// One for each method, in the trait's order.
+    pub deviations: [Deviation; 15],
+}
+
+impl Report {
+    /// Whether every method is within its tolerance, at one state at least.
+    pub fn passes(&self) -> bool {
+        self.states > 0 && self.deviations.iter().all(Deviation::passes)
+    }
+}
+
+impl fmt::Display for Deviation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            method,
+            error,
+            tolerance,
+        } = self;
+        let verdict = if self.passes() { "ok" } else { "WRONG" };
+        write!(f, "{method:34} {error:9.1e}  {tolerance:9.0e}   {verdict}")
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let states = self.states;
+        writeln!(
+            f,
+            "{:34} {:>9}  {:>9}   ({states} states)",
+            "method", "error", "allowed"
+        )?;
+        for deviation in &self.deviations {
+            writeln!(f, "{deviation}")?;
+        }
+        Ok(())
+    }
+}
