@@ -21,7 +21,7 @@ pub(super) fn choose(model: &Model, yardstick: &Yardstick) -> Choices {
         ..Choices::default()
     };
     let groups = Chain::new(&Graph::new(), model).groups.len();
-    let best = |method: &str, choices: &dyn Fn(usize) -> [Choices; 2]| {
+    let best = |method: &str, choices: &dyn Fn(usize) -> Vec<Choices>| {
         let quantity = QUANTITIES.iter().find(|quantity| quantity.method == method);
         let mut all: Vec<Choices> = (0..=groups).flat_map(choices).collect();
         all.dedup();
@@ -32,7 +32,7 @@ pub(super) fn choose(model: &Model, yardstick: &Yardstick) -> Choices {
         cheapest_that_is_exact(candidates.collect(), yardstick).unwrap_or(none)
     };
     let world = best("geometric_jacobian", &|world| {
-        [Choices { world, ..none }; 2]
+        vec![Choices { world, ..none }]
     })
     .world;
     let task = best(GRADIENT, &|task| {
@@ -45,7 +45,11 @@ pub(super) fn choose(model: &Model, yardstick: &Yardstick) -> Choices {
             order: longest_first(model, as_listed, yardstick),
             ..as_listed
         };
-        [as_listed, longest_first]
+        let by_articulated_bodies = [as_listed, longest_first].map(|choices| Choices {
+            articulated: true,
+            ..choices
+        });
+        [[as_listed, longest_first], by_articulated_bodies].concat()
     });
     Choices { world, ..task }
 }

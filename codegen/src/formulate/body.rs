@@ -65,7 +65,7 @@ fn indifferent_part<'g>(joint: &Joint, body: &Body<'g>) -> Body<'g> {
 
 impl<'g> Body<'g> {
     /// A link's parameters.
-    fn of_link(graph: &'g Graph, link: &Link) -> Self {
+    pub fn of_link(graph: &'g Graph, link: &Link) -> Self {
         let zero = graph.constant(0.0);
         let at_centroid = Self {
             mass: graph.constant(link.mass),

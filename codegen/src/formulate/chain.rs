@@ -26,6 +26,8 @@ pub struct ChainJoint<'g> {
     pub group_from_own: Turn<'g>,
     /// The link's inertial constants, regrouped ([`base_parameters`]), in its own frame.
     pub body: Body<'g>,
+    /// The same as the table has them.
+    pub link: Body<'g>,
 }
 
 /// Joints about parallel axes.
@@ -90,6 +92,7 @@ impl<'g> Chain<'g> {
                 offset: offset(graph, model, group, i),
                 group_from_own: sum_of_angles(graph, model, i + 1..group.joints.end).inverse(),
                 body: bodies[i],
+                link: Body::of_link(graph, &model.joints[i].link),
             })
             .collect();
         let world_from_base = model.base.rotation;

@@ -7,11 +7,11 @@ use crate::graph::Expr;
 /// The factors of a symmetric positive definite matrix.
 pub struct Factors<'g> {
     /// U above the diagonal, by rows.
-    upper: Vec<Vec<Expr<'g>>>,
+    pub(super) upper: Vec<Vec<Expr<'g>>>,
     /// The pivots.
     pub pivots: Vec<Expr<'g>>,
     /// One over the pivots.
-    inverse_pivots: Vec<Expr<'g>>,
+    pub(super) inverse_pivots: Vec<Expr<'g>>,
 }
 
 /// Factors the matrix.
@@ -48,6 +48,11 @@ pub fn factor<'g>(matrix: &[Vec<Expr<'g>>]) -> Factors<'g> {
 impl<'g> Factors<'g> {
     /// x of (U D Uᵀ) x = b.
     pub fn solve(&self, b: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        self.solve_in_steps(b).1
+    }
+
+    /// Uᵀ x, and x, of (U D Uᵀ) x = b.
+    pub fn solve_in_steps(&self, b: &[Expr<'g>]) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
         let n = b.len();
         let mut x = b.to_vec();
         for k in (0..n).rev() {
@@ -58,11 +63,12 @@ impl<'g> Factors<'g> {
         for (x, inverse) in x.iter_mut().zip(&self.inverse_pivots) {
             *x = *x * *inverse;
         }
+        let halfway = x.clone();
         for k in 0..n {
             for i in 0..k {
                 x[k] = x[k] - self.upper[i][k] * x[i];
             }
         }
-        x
+        (halfway, x)
     }
 }

@@ -18,7 +18,7 @@
 //! det(JJᵀ), by which the task is judged to be singular or not (`ulna::singular`), needs J's rows made orthogonal too,
 //! once: only its size counts.
 
-use super::factorization::factor;
+use super::factorization::{Factors, factor};
 use crate::differentiate::reverse;
 use crate::graph::Expr;
 
@@ -100,6 +100,45 @@ pub fn manipulability<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Manipulabil
         }
     }
     let logarithmic = reverse(value.graph(), &seeded, mass.len());
+    Manipulability {
+        value,
+        gradient: logarithmic.into_iter().map(|x| value * x).collect(),
+        volume_squared: volume_squared(jacobian),
+    }
+}
+
+/// The same from the factors of M = U D Uᵀ, which stay exact where M's rounding swallows a light link ([`super::articulated`]).
+///
+/// With M's change written as that of its factors, ⟨HᵀW, dM⟩ is Σ_k (HU)_k·(WU)_k dD_k + Σ_ik D_k (H_i·(WU)_k + W_i·(HU)_k) dU_ik,
+/// where X_k is the k-th column of X: no difference of large numbers where a pivot is small.
+pub fn manipulability_by_factors<'g>(
+    jacobian: &[Row<'g>],
+    mass_factors: &Factors<'g>,
+) -> Manipulability<'g> {
+    let solved = |rows: &[Row<'g>]| -> (Vec<Row<'g>>, Vec<Row<'g>>) {
+        rows.iter()
+            .map(|row| mass_factors.solve_in_steps(row))
+            .unzip()
+    };
+    let (h_turned, h) = solved(jacobian);
+    let basis = orthogonalise(&h, 2);
+    let value = product(&basis.pivots).sqrt();
+    let (w_turned, w) = solved(&basis.duals());
+    let mut seeded = Vec::new();
+    for (j_row, w_row) in jacobian.iter().zip(&w) {
+        seeded.extend(j_row.iter().copied().zip(w_row.iter().copied()));
+    }
+    let columns = |a: &[Row<'g>], i: usize, b: &[Row<'g>], k: usize| {
+        sum(a.iter().zip(b).map(|(a, b)| a[i] * b[k])).unwrap_or(value)
+    };
+    for (k, pivot) in mass_factors.pivots.iter().enumerate() {
+        seeded.push((*pivot, -columns(&h_turned, k, &w_turned, k)));
+        for (i, row) in mass_factors.upper.iter().enumerate().take(k) {
+            let both = columns(&h, i, &w_turned, k) + columns(&w, i, &h_turned, k);
+            seeded.push((row[k], -(*pivot * both)));
+        }
+    }
+    let logarithmic = reverse(value.graph(), &seeded, mass_factors.pivots.len());
     Manipulability {
         value,
         gradient: logarithmic.into_iter().map(|x| value * x).collect(),

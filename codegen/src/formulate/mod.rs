@@ -3,6 +3,7 @@
 //! Written for few operations, from other formulas than the generic path where those are cheaper. Where several ways
 //! lead to the same values, each is a candidate, and the driver keeps the one that comes out cheapest for the arm at hand.
 
+pub mod articulated;
 pub mod body;
 pub mod chain;
 pub mod factorization;
@@ -37,6 +38,8 @@ pub struct Choices {
     pub task: usize,
     /// In which order the task's rows are made orthogonal: their places in the task, each once.
     pub order: [usize; 6],
+    /// Whether w_D takes M's factors from articulated bodies, and not from M.
+    pub articulated: bool,
     /// Whether the task is singular in every configuration, so that w_D is 0 there.
     pub singular: bool,
 }
@@ -50,6 +53,7 @@ impl Default for Choices {
             world: 0,
             task: 0,
             order: IN_ORDER,
+            articulated: false,
             singular: false,
         }
     }
@@ -271,6 +275,9 @@ fn without_gradient(mut outputs: Outputs<'_>) -> Outputs<'_> {
 fn manipulability_and_gradient<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
     let found = if choices.singular {
         Manipulability::zero(chain.graph.constant(0.0), chain.joint_count())
+    } else if choices.articulated {
+        let factors = articulated::factors(chain);
+        manipulability::manipulability_by_factors(&task_rows(chain, choices), &factors)
     } else {
         manipulability::manipulability(&task_rows(chain, choices), &mass_matrix(chain))
     };
