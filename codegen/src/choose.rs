@@ -14,44 +14,41 @@ const GRADIENT: &str = "dynamic_manipulability_gradient";
 /// The largest relative error that a program may have to be chosen for its few operations.
 const EXACT: f64 = 1e-10;
 
+/// Ways to w_D, each longer than those before: whether M's factors come from articulated bodies, and how often
+/// H's rows are made orthogonal.
+const WAYS: [(bool, usize); 4] = [(false, 2), (false, 3), (true, 2), (true, 3)];
+
 /// Tries the Jacobian in every frame, for J itself and for w_D, and for w_D its rows in two orders.
 pub(super) fn choose(model: &Model, yardstick: &Yardstick) -> Choices {
     let none = Choices {
         singular: yardstick.singular_everywhere,
         ..Choices::default()
     };
-    let groups = Chain::new(&Graph::new(), model).groups.len();
-    let best = |method: &str, choices: &dyn Fn(usize) -> Vec<Choices>| {
-        let quantity = QUANTITIES.iter().find(|quantity| quantity.method == method);
-        let mut all: Vec<Choices> = (0..=groups).flat_map(choices).collect();
+    let frames = 0..=Chain::new(&Graph::new(), model).groups.len();
+    let worlds = frames.clone().map(|world| Choices { world, ..none });
+    let worlds = [worlds.collect()].into_iter();
+    let world = cheapest_that_is_exact(model, "geometric_jacobian", worlds, yardstick);
+    let ways = WAYS.into_iter().map(|(articulated, passes)| {
+        let in_frame = |task: usize| {
+            let as_listed = Choices {
+                world: task,
+                task,
+                articulated,
+                passes,
+                ..none
+            };
+            let order = longest_first(model, as_listed, yardstick);
+            [as_listed, Choices { order, ..as_listed }]
+        };
+        let mut all: Vec<Choices> = frames.clone().flat_map(in_frame).collect();
         all.dedup();
-        let program = |choices: Choices| Some(compile_quantity(model, quantity?, choices));
-        let candidates = all
-            .into_iter()
-            .filter_map(|choices| Some((choices, program(choices)?)));
-        cheapest_that_is_exact(candidates.collect(), yardstick).unwrap_or(none)
-    };
-    let world = best("geometric_jacobian", &|world| {
-        vec![Choices { world, ..none }]
-    })
-    .world;
-    let task = best(GRADIENT, &|task| {
-        let as_listed = Choices {
-            world: task,
-            task,
-            ..none
-        };
-        let longest_first = Choices {
-            order: longest_first(model, as_listed, yardstick),
-            ..as_listed
-        };
-        let by_articulated_bodies = [as_listed, longest_first].map(|choices| Choices {
-            articulated: true,
-            ..choices
-        });
-        [[as_listed, longest_first], by_articulated_bodies].concat()
+        all
     });
-    Choices { world, ..task }
+    let task = cheapest_that_is_exact(model, GRADIENT, ways, yardstick).unwrap_or(none);
+    Choices {
+        world: world.unwrap_or(none).world,
+        ..task
+    }
 }
 
 /// The order of the task's rows in which H's are longest first.
@@ -87,21 +84,33 @@ pub(super) fn conditioned(
     yardstick.conditioned(model, &gradient.program, &sensitivity)
 }
 
-/// The choices of the shortest program among those whose error is small enough; of the most exact one, if none is.
+/// Of the first of `ways` in which a program's error is small enough, the choices of the shortest such program;
+/// of all of them, those of the most exact program, if none is.
 fn cheapest_that_is_exact(
-    mut candidates: Vec<(Choices, Program)>,
+    model: &Model,
+    method: &str,
+    ways: impl Iterator<Item = Vec<Choices>>,
     yardstick: &Yardstick,
 ) -> Option<Choices> {
-    // A stable sort: of programs of one length the first is kept.
-    candidates.sort_by_key(|(_, program)| program.steps.len());
+    let quantity = QUANTITIES
+        .iter()
+        .find(|quantity| quantity.method == method)?;
     let mut most_exact: Option<(f64, Choices)> = None;
-    for (choices, program) in &candidates {
-        let error = yardstick.error(program);
-        if error <= EXACT {
-            return Some(*choices);
-        }
-        if most_exact.is_none_or(|(least, _)| error < least) {
-            most_exact = Some((error, *choices));
+    for way in ways {
+        let compiled = way
+            .into_iter()
+            .map(|choices| (choices, compile_quantity(model, quantity, choices)));
+        let mut candidates: Vec<(Choices, Program)> = compiled.collect();
+        // A stable sort: of programs of one length the first is kept.
+        candidates.sort_by_key(|(_, program)| program.steps.len());
+        for (choices, program) in &candidates {
+            let error = yardstick.error(program);
+            if error <= EXACT {
+                return Some(*choices);
+            }
+            if most_exact.is_none_or(|(least, _)| error < least) {
+                most_exact = Some((error, *choices));
+            }
         }
     }
     most_exact.map(|(_, choices)| choices)

@@ -9,7 +9,8 @@
 //! and G⁻¹H as the rows' dual basis, for fewer operations besides. Each row goes through it twice
 //! (Giraud, Langou and Rozložník 2005: twice is enough). Once is not: a light last link makes H's rows nearly parallel
 //! (its column of H goes as one over its inertia I), and near a singular pose they are so anyway; once leaves an error that grows
-//! as 1/I², and 1e-9 at 1e-6 rad from a stretched elbow, twice leaves rounding.
+//! as 1/I², and 1e-9 at 1e-6 rad from a stretched elbow, twice leaves rounding. A third time is for arms whose inertias differ so much
+//! (1e12) that what is left along a light joint must be exact by itself, M⁻¹ multiplying it once more.
 //!
 //! Nor is the order of the rows free where H's columns differ by orders of magnitude: a row without a light joint's large entry, taken
 //! off a row with one, leaves rounding of that entry's size in all others. The generator tries the order in which H's rows
@@ -61,10 +62,10 @@ pub struct Sensitivity<'g> {
 }
 
 /// w_D's dependence on J, by rows, and M.
-pub fn sensitivity<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Sensitivity<'g> {
+pub fn sensitivity<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>], passes: usize) -> Sensitivity<'g> {
     let mass_factors = factor(mass);
     let h: Vec<Row<'g>> = jacobian.iter().map(|row| mass_factors.solve(row)).collect();
-    let basis = orthogonalise(&h, 2);
+    let basis = orthogonalise(&h, passes);
     let value = product(&basis.pivots).sqrt();
     let duals = basis.duals();
     let w: Vec<Row<'g>> = duals.iter().map(|row| mass_factors.solve(row)).collect();
@@ -82,13 +83,18 @@ pub fn sensitivity<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Sensitivity<'g
     }
 }
 
-/// w_D and ∇w_D of the task whose Jacobian is `jacobian` (by rows), with the mass matrix `mass`.
-pub fn manipulability<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Manipulability<'g> {
+/// w_D and ∇w_D of the task whose Jacobian is `jacobian` (by rows), with the mass matrix `mass`;
+/// H's rows are made orthogonal `passes` times.
+pub fn manipulability<'g>(
+    jacobian: &[Row<'g>],
+    mass: &[Row<'g>],
+    passes: usize,
+) -> Manipulability<'g> {
     let Sensitivity {
         value,
         by_jacobian,
         by_mass,
-    } = sensitivity(jacobian, mass);
+    } = sensitivity(jacobian, mass, passes);
     let mut seeded = Vec::new();
     for (j_row, w_row) in jacobian.iter().zip(&by_jacobian) {
         seeded.extend(j_row.iter().copied().zip(w_row.iter().copied()));
@@ -114,6 +120,7 @@ pub fn manipulability<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Manipulabil
 pub fn manipulability_by_factors<'g>(
     jacobian: &[Row<'g>],
     mass_factors: &Factors<'g>,
+    passes: usize,
 ) -> Manipulability<'g> {
     let solved = |rows: &[Row<'g>]| -> (Vec<Row<'g>>, Vec<Row<'g>>) {
         rows.iter()
@@ -121,7 +128,7 @@ pub fn manipulability_by_factors<'g>(
             .unzip()
     };
     let (h_turned, h) = solved(jacobian);
-    let basis = orthogonalise(&h, 2);
+    let basis = orthogonalise(&h, passes);
     let value = product(&basis.pivots).sqrt();
     let (w_turned, w) = solved(&basis.duals());
     let mut seeded = Vec::new();

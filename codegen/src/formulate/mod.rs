@@ -38,6 +38,8 @@ pub struct Choices {
     pub task: usize,
     /// In which order the task's rows are made orthogonal: their places in the task, each once.
     pub order: [usize; 6],
+    /// How often H's rows are made orthogonal.
+    pub passes: usize,
     /// Whether w_D takes M's factors from articulated bodies, and not from M.
     pub articulated: bool,
     /// Whether the task is singular in every configuration, so that w_D is 0 there.
@@ -53,6 +55,7 @@ impl Default for Choices {
             world: 0,
             task: 0,
             order: IN_ORDER,
+            passes: 2,
             articulated: false,
             singular: false,
         }
@@ -247,7 +250,11 @@ pub fn squared_lengths<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
 
 /// How ln w_D depends on the entries of J's rows, as the table names them, and on M's.
 pub fn sensitivity<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
-    let found = manipulability::sensitivity(&task_rows(chain, choices), &mass_matrix(chain));
+    let found = manipulability::sensitivity(
+        &task_rows(chain, choices),
+        &mass_matrix(chain),
+        choices.passes,
+    );
     let matrix = |name, rows: Vec<Vec<Expr<'g>>>| Output {
         name,
         shape: vec![rows.len(), chain.joint_count()],
@@ -277,9 +284,17 @@ fn manipulability_and_gradient<'g>(chain: &Chain<'g>, choices: Choices) -> Outpu
         Manipulability::zero(chain.graph.constant(0.0), chain.joint_count())
     } else if choices.articulated {
         let factors = articulated::factors(chain);
-        manipulability::manipulability_by_factors(&task_rows(chain, choices), &factors)
+        manipulability::manipulability_by_factors(
+            &task_rows(chain, choices),
+            &factors,
+            choices.passes,
+        )
     } else {
-        manipulability::manipulability(&task_rows(chain, choices), &mass_matrix(chain))
+        manipulability::manipulability(
+            &task_rows(chain, choices),
+            &mass_matrix(chain),
+            choices.passes,
+        )
     };
     vec![
         number("value", found.value),
