@@ -96,21 +96,13 @@ pub fn manipulability<'g>(
         by_mass,
     } = sensitivity(jacobian, mass, passes);
     let mut seeded = Vec::new();
-    for (j_row, w_row) in jacobian.iter().zip(&by_jacobian) {
-        seeded.extend(j_row.iter().copied().zip(w_row.iter().copied()));
-    }
     for (i, row) in mass.iter().enumerate() {
         seeded.push((row[i], -by_mass[i][i]));
         for (j, entry) in row.iter().enumerate().skip(i + 1) {
             seeded.push((*entry, -(by_mass[i][j] + by_mass[j][i])));
         }
     }
-    let logarithmic = reverse(value.graph(), &seeded, mass.len());
-    Manipulability {
-        value,
-        gradient: logarithmic.into_iter().map(|x| value * x).collect(),
-        volume_squared: volume_squared(jacobian),
-    }
+    by_adjoint(value, jacobian, &by_jacobian, seeded)
 }
 
 /// The same from the factors of M = U D Uᵀ, which stay exact where M's rounding swallows a light link ([`super::articulated`]).
@@ -132,9 +124,6 @@ pub fn manipulability_by_factors<'g>(
     let value = product(&basis.pivots).sqrt();
     let (w_turned, w) = solved(&basis.duals());
     let mut seeded = Vec::new();
-    for (j_row, w_row) in jacobian.iter().zip(&w) {
-        seeded.extend(j_row.iter().copied().zip(w_row.iter().copied()));
-    }
     let columns = |a: &[Row<'g>], i: usize, b: &[Row<'g>], k: usize| {
         sum(a.iter().zip(b).map(|(a, b)| a[i] * b[k])).unwrap_or(value)
     };
@@ -145,7 +134,21 @@ pub fn manipulability_by_factors<'g>(
             seeded.push((row[k], -(*pivot * both)));
         }
     }
-    let logarithmic = reverse(value.graph(), &seeded, mass_factors.pivots.len());
+    by_adjoint(value, jacobian, &w, seeded)
+}
+
+/// One reverse sweep from J, seeded with W, and from what stands for M with its own seeds.
+fn by_adjoint<'g>(
+    value: Expr<'g>,
+    jacobian: &[Row<'g>],
+    w: &[Row<'g>],
+    of_mass: Vec<(Expr<'g>, Expr<'g>)>,
+) -> Manipulability<'g> {
+    let pairs = jacobian.iter().flatten().zip(w.iter().flatten());
+    let mut seeded: Vec<_> = pairs.map(|(entry, seed)| (*entry, *seed)).collect();
+    seeded.extend(of_mass);
+    let joints = jacobian.first().map_or(0, Vec::len);
+    let logarithmic = reverse(value.graph(), &seeded, joints);
     Manipulability {
         value,
         gradient: logarithmic.into_iter().map(|x| value * x).collect(),
