@@ -8,9 +8,9 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use ulna::ArmBatch;
+use ulna::Instructions;
 use ulna::nalgebra::{IsometryMatrix3, SMatrix, SVector};
 use ulna::proof::{State, states};
-use ulna::simd::Instructions;
 
 /// States in a batch.
 const LENGTHS: [usize; 5] = [1, 3, 7, 8, 1024];

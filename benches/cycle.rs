@@ -6,7 +6,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use ulna::compensation::FreeTorque;
+use ulna::control::compensation::FreeTorque;
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::proof::states;
 use ulna::{Arm, Compensation, Controller, JointState, LockedJoints, Projector};

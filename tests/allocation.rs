@@ -1,14 +1,15 @@
 //! A control cycle allocates nothing, whatever the law, the projector, the backend and the outcome; nor does the truth model.
 
-use ulna::compensation::FreeTorque;
-use ulna::failure::impact_torque;
+use ulna::control::compensation::FreeTorque;
+use ulna::control::failure::impact_torque;
 use ulna::nalgebra::{SVector, Vector6};
-use ulna::simulation::{Brake, Control, Feedback, Resolution, Simulation};
 use ulna::{
-    Arm, Compensation, Controller, Failure, JointLimits, JointState, LockedJoints, Model,
-    Projector, SerialChain, Status, Trapezoid,
+    Arm, Compensation, Controller, Failure, JointLimits, JointState, LockedJoints, Projector,
+    SerialChain, Status, Trapezoid,
 };
 use ulna_generated::Ssrms;
+use ulna_study::simulation::{Brake, Control, Feedback, Resolution, Simulation};
+use ulna_table::Model;
 
 fn allocations(work: impl FnOnce()) -> u64 {
     allocation_counter::measure(work).count_total
@@ -86,7 +87,7 @@ fn a_control_cycle_allocates_nothing_on_a_generated_arm() {
 
 #[test]
 fn a_control_cycle_allocates_nothing_on_the_generic_path() {
-    let chain = SerialChain::<7>::new(&Model::load("arms/ssrms.toml").unwrap()).unwrap();
+    let chain = SerialChain::<7>::try_from(&Model::load("../arms/ssrms.toml").unwrap()).unwrap();
     cycles(&chain);
     let state = JointState {
         q: SVector::repeat(0.3),

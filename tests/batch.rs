@@ -257,23 +257,3 @@ fn slices_of_different_lengths_are_an_error() {
         "`out` has 4 entries in a batch of 3 states"
     );
 }
-
-#[cfg(feature = "rayon")]
-#[test]
-fn chunks_in_parallel_are_one_batch() {
-    use ulna::batch::in_parallel;
-
-    let q: Vec<SVector<f64, 2>> = states(&Planar2r::CHAIN).take(700).map(|s| s.q).collect();
-    let mut out = vec![SMatrix::<f64, 2, 2>::zeros(); q.len()];
-    let batch = |q: &[_], out: &mut [_]| Planar2r.mass_matrix_batch(q, out);
-    assert_eq!(in_parallel(&q, &mut out, batch), Ok(()));
-    for (q, result) in q.iter().zip(&out) {
-        assert_eq!(*result, Planar2r.mass_matrix(q));
-    }
-    let mismatch = LengthMismatch {
-        states: 700,
-        slice: "out",
-        length: 256,
-    };
-    assert_eq!(in_parallel(&q, &mut out[..256], batch), Err(mismatch));
-}

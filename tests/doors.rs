@@ -5,7 +5,7 @@ mod outside;
 use std::fs;
 
 use outside::{CHECKED_IN, Crate, root};
-use ulna::Model;
+use ulna_table::Model;
 
 const TABLE: &str = "arms/planar_2r.toml";
 

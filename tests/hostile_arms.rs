@@ -1,8 +1,9 @@
 //! Small arms that a table can describe and that ask for too much: each found something wrong once.
 
 use nalgebra::{SVector, vector};
-use ulna::{Arm, Model, SerialChain};
+use ulna::{Arm, SerialChain};
 use ulna_codegen::interpret::{Exact, Interpreter};
+use ulna_table::Model;
 
 /// A joint of an arm: what stands under its `[[joint]]`, and its link's mass, centroid and inertia.
 struct Row {
@@ -48,7 +49,7 @@ fn arms<const N: usize>(text: &str) -> (SerialChain<N>, Interpreter<N>, Exact<N>
     let model = model(text);
     let joints = "the table has as many joints as the test says";
     (
-        SerialChain::new(&model).expect(joints),
+        SerialChain::try_from(&model).expect(joints),
         Interpreter::new(&model).expect(joints),
         Exact::new(&model).expect(joints),
     )
@@ -230,7 +231,7 @@ fn a_prismatic_joint_far_out_leaves_numbers() {
 /// Closer and closer to a stretched elbow, until the rule says that there is nothing but rounding.
 #[test]
 fn digits_are_kept_beside_a_singular_pose() {
-    let path = format!("{}/arms/planar_2r.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../arms/planar_2r.toml", env!("CARGO_MANIFEST_DIR"));
     let (chain, emitted, exact) = arms::<2>(&std::fs::read_to_string(path).expect("the table"));
     for elbow in [1e-3, 1e-6, 1e-9, 1e-10, 1e-12, 1e-13] {
         let q = vector![0.3, elbow];
@@ -315,7 +316,7 @@ fn a_configuration_that_is_no_number_gives_none() {
 /// Sums of large angles once cost digits.
 #[test]
 fn many_turns_cost_no_digits() {
-    let path = format!("{}/arms/ssrms.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../arms/ssrms.toml", env!("CARGO_MANIFEST_DIR"));
     let (chain, emitted, exact) = arms::<7>(&std::fs::read_to_string(path).expect("the table"));
     for state in ulna::proof::states(&chain).take(10) {
         for size in [5.0, 1e3, 1e6] {

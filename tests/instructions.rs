@@ -4,9 +4,9 @@
 
 use std::fmt::Debug;
 
+use ulna::Instructions;
 use ulna::nalgebra::{IsometryMatrix3, SMatrix, SVector};
 use ulna::proof::states;
-use ulna::simd::Instructions;
 use ulna::{Arm, ArmBatch, LengthMismatch};
 use ulna_generated::Oblique6;
 

@@ -4,7 +4,8 @@
 
 use nalgebra::{SMatrix, SVector};
 use serde::Deserialize;
-use ulna::{Arm, Model, SerialChain};
+use ulna::{Arm, SerialChain};
+use ulna_table::Model;
 
 /// A line of `data/<arm>.jsonl`.
 #[derive(Deserialize)]
@@ -38,7 +39,7 @@ const PINOCCHIO: f64 = 1e-12;
 const MPMATH: f64 = 1e-11;
 
 fn read<Line: for<'a> Deserialize<'a>>(file: &str) -> Vec<Line> {
-    let path = format!("{}/tests/oracle/data/{file}", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/oracle/data/{file}", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
     let lines: Vec<Line> = text
         .lines()
@@ -49,9 +50,9 @@ fn read<Line: for<'a> Deserialize<'a>>(file: &str) -> Vec<Line> {
 }
 
 fn chain<const N: usize>(name: &str) -> SerialChain<N> {
-    let path = format!("{}/arms/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../arms/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let model = Model::load(path).unwrap_or_else(|errors| panic!("{errors}"));
-    SerialChain::new(&model).unwrap_or_else(|error| panic!("{error}"))
+    SerialChain::try_from(&model).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The largest errors seen, by quantity.

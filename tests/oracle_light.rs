@@ -5,8 +5,9 @@
 
 use nalgebra::SVector;
 use serde::Deserialize;
-use ulna::{Arm, Model, SerialChain};
+use ulna::{Arm, SerialChain};
 use ulna_codegen::Interpreter;
+use ulna_table::Model;
 
 /// A line of `data/light/<arm>.jsonl`.
 #[derive(Deserialize)]
@@ -24,7 +25,7 @@ const TOLERANCE: f64 = 1e-10;
 
 fn golden(name: &str) -> Vec<Golden> {
     let path = format!(
-        "{}/tests/oracle/data/light/{name}.jsonl",
+        "{}/oracle/data/light/{name}.jsonl",
         env!("CARGO_MANIFEST_DIR")
     );
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
@@ -77,7 +78,7 @@ macro_rules! arms {
 
             #[test]
             fn textbook_agrees_with_exact_numbers() {
-                let chain = SerialChain::<$joints>::new(&model($folder, stringify!($name)));
+                let chain = SerialChain::<$joints>::try_from(&model($folder, stringify!($name)));
                 agrees("textbook", stringify!($name), &chain.unwrap_or_else(|error| panic!("{error}")));
             }
 
@@ -91,7 +92,7 @@ macro_rules! arms {
 }
 
 arms!("arms": planar_2r 2);
-arms!("tests/oracle/data/light":
+arms!("oracle/data/light":
     two_1e_4 2
     two_1e_6 2
     two_1e_8 2

@@ -1,8 +1,8 @@
 //! From the arm of a scenario, known at run time, to a type.
 
 use anyhow::bail;
-use ulna::scenario::{KnownArm, ScenarioArm};
 use ulna::{Arm, SerialChain};
+use ulna_study::scenario::{KnownArm, ScenarioArm};
 
 use crate::joints::{ForChain, with_chain};
 

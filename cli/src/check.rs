@@ -4,7 +4,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use ulna::{JointKind, Model, TaskRow};
+use ulna::{JointKind, TaskRow};
+use ulna_table::Model;
 
 use crate::{Verdict, console};
 

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use clap::builder::styling::{AnsiColor, Style};
-use ulna::diagnostics::Diagnostics;
-use ulna::{Model, TableErrors};
+use ulna_table::diagnostics::Diagnostics;
+use ulna_table::{Model, TableErrors};
 
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();

@@ -8,8 +8,8 @@ use clap::Args;
 use comfy_table::presets;
 use comfy_table::{CellAlignment, Table};
 use serde_json::{Map, Value, json};
-use ulna::Model;
 use ulna_codegen::{Counts, Generated};
+use ulna_table::Model;
 
 use crate::{Verdict, console};
 

@@ -1,7 +1,8 @@
 //! From a number of joints that is known at run time to one that is a type.
 
 use anyhow::bail;
-use ulna::{Model, SerialChain};
+use ulna::SerialChain;
+use ulna_table::Model;
 
 /// What to do with a chain, whatever its number of joints.
 pub(crate) trait ForChain {
@@ -20,7 +21,7 @@ pub(crate) fn with_chain<W: ForChain>(model: &Model, work: W) -> anyhow::Result<
     macro_rules! dispatch {
         ($most:literal: $($joints:literal)+) => {
             match model.joints.len() {
-                $($joints => Ok(work.run(&SerialChain::<$joints>::new(model)?)),)+
+                $($joints => Ok(work.run(&SerialChain::<$joints>::try_from(model)?)),)+
                 joints => bail!(
                     "arm `{}` has {joints} joints; this program was compiled for up to {}. \
                      In a test of your own, `ulna::proof::compare::<{joints}>` does the same",

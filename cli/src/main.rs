@@ -18,8 +18,8 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use ulna::TableErrors;
-use ulna::scenario::ScenarioErrors;
+use ulna_study::scenario::ScenarioErrors;
+use ulna_table::TableErrors;
 
 /// A table of a robot arm in, unrolled Rust dynamics out
 ///

@@ -4,10 +4,11 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
-use ulna::generic::JointCountError;
+use ulna::SerialChain;
 use ulna::proof::{self, Deviation, Report, differences};
-use ulna::{Model, SerialChain};
 use ulna_codegen::interpret::{Exact, Interpreter};
+use ulna_table::JointCountError;
+use ulna_table::Model;
 
 use crate::joints::{ForChain, with_chain};
 use crate::{Verdict, console};

@@ -5,7 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use ulna::{Model, TableErrors};
+use ulna_table::{Model, TableErrors};
 
 use crate::generate;
 

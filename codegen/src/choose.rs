@@ -1,6 +1,6 @@
 //! Among the ways to write an arm's formulas down: the cheapest that is exact enough.
 
-use ulna::Model;
+use ulna_table::Model;
 
 use crate::accuracy::{Conditioned, Yardstick};
 use crate::formulate::chain::Chain;

@@ -3,7 +3,9 @@
 use std::marker::PhantomData;
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3};
-use ulna::{Arm, Model, SerialChain, TaskRows, unrolled};
+use ulna::arm::coordinates::coordinates;
+use ulna::{Arm, SerialChain, TaskRows};
+use ulna_table::Model;
 
 use crate::Method;
 use crate::accuracy::{Conditioned, Scalar, read};
@@ -34,8 +36,8 @@ impl<const N: usize, R: Scalar> Interpreter<N, R> {
     ///
     /// # Errors
     /// When the model has another number of joints than `N`.
-    pub fn new(model: &Model) -> Result<Self, ulna::generic::JointCountError> {
-        let chain = SerialChain::new(model)?;
+    pub fn new(model: &Model) -> Result<Self, ulna_table::JointCountError> {
+        let chain = SerialChain::try_from(model)?;
         let crate::Compiled {
             methods,
             conditioned,
@@ -100,7 +102,7 @@ impl<const N: usize, R: Scalar> Interpreter<N, R> {
     }
 
     fn is_singular(&self, q: &SVector<f64, N>, volume: &[f64]) -> bool {
-        let q = unrolled::coordinates(&self.chain, &q.data.0[0]);
+        let q = coordinates(&self.chain, &q.data.0[0]);
         self.chain.is_singular(&q, volume[0])
     }
 }

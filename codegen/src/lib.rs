@@ -4,7 +4,7 @@
 //!
 //! | stage | from | to |
 //! |---|---|---|
-//! | [`formulate`] | [`ulna::Model`] | named outputs on a [`graph`], differentiated there ([`differentiate`]) |
+//! | [`formulate`] | [`ulna_table::Model`] | named outputs on a [`graph`], differentiated there ([`differentiate`]) |
 //! | [`schedule`] | outputs on a graph | a straight-line [`Program`] |
 //! | [`accuracy`] | programs | their rounding errors, of which the choice of formulas depends |
 //! | [`emit`] | programs | Rust |
@@ -26,7 +26,7 @@ pub mod op;
 pub mod schedule;
 mod sines;
 
-use ulna::Model;
+use ulna_table::Model;
 
 pub use build::{Error, compile_arms, compile_folder};
 pub use cost::Counts;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ulna::{JointKind, Model};
+use ulna::JointKind;
 use ulna_codegen::Program;
 use ulna_codegen::accuracy::{Scalar, read};
 use ulna_codegen::double_double::DoubleDouble;
@@ -10,6 +10,7 @@ use ulna_codegen::formulate::chain::Chain;
 use ulna_codegen::formulate::{Choices, QUANTITIES};
 use ulna_codegen::graph::Graph;
 use ulna_codegen::schedule::schedule;
+use ulna_table::Model;
 
 fn gradient(model: &Model, articulated: bool) -> Program {
     let name = "dynamic_manipulability_gradient";

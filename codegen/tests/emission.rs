@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use ulna::Model;
 use ulna_codegen::{Counts, Generated, compile, generate};
+use ulna_table::Model;
 
 fn arms() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../arms");

@@ -35,7 +35,7 @@ fn expand(literal: &LitStr) -> Result<proc_macro2::TokenStream, String> {
     let root = std::env::var("CARGO_MANIFEST_DIR")
         .map_err(|error| format!("CARGO_MANIFEST_DIR: {error}; build with cargo"))?;
     let (model, found) =
-        ulna::Model::lint_in(&root, &path).map_err(|errors| format!("{errors:?}"))?;
+        ulna_table::Model::lint_in(&root, &path).map_err(|errors| format!("{errors:?}"))?;
     let generated = ulna_codegen::generate(&model, &path);
     let found = (!found.is_empty()).then(|| found.to_string());
     let said = generated

@@ -3,7 +3,8 @@
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3, Vector3};
 
 use super::SerialChain;
-use crate::real::{Real, prismatic_offset};
+use crate::Real;
+use crate::arm::coordinates::prismatic_offset;
 use crate::{Joint, JointKind};
 
 /// What a joint's coordinate enters the kinematics as.

@@ -51,7 +51,7 @@ impl<const N: usize> SerialChain<N> {
         (w, gradient)
     }
 
-    /// Whether w_D counts as 0: [`crate::singular`].
+    /// Whether w_D counts as 0: [`crate::arm::singular`].
     fn counts_as_singular(&self, inputs: &[JointInput; N], jacobian: &SMatrix<f64, 6, N>) -> bool {
         let rows = task_columns(self.task, jacobian);
         let volume: f64 = ThinQr::new(rows, self.task.len()).heights().product();

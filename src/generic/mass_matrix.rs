@@ -29,7 +29,7 @@ impl<const N: usize> SerialChain<N> {
 /// Cholesky's factor of a mass matrix; of one that is NaN, a factor that is.
 ///
 /// M is positive definite, and its rounded entries are: tables are refused in which a link is so light beside what it carries
-/// that they might not be ([`crate::bounds::LEAST_SHARE`]).
+/// that they might not be ([`crate::arm::bounds::LEAST_SHARE`]).
 /// Cholesky needs no scaling although M's diagonal spans orders of magnitude: its error in entry (i, j)
 /// is a few units of rounding of `√(M_ii M_jj)`.
 pub(crate) fn factor<const N: usize>(mass_matrix: SMatrix<f64, N, N>) -> Cholesky<f64, Const<N>> {

@@ -27,8 +27,8 @@ pub(crate) use orthogonal::ThinQr;
 /// All of it is plain data, so that generated code can carry its own chain as a constant. No method allocates.
 ///
 /// For finite q no method returns NaN: angles of any size enter by their sines and cosines only, offsets are held within
-/// ±[`PRISMATIC_LIMIT`](crate::real::PRISMATIC_LIMIT). w_D and its gradient are exactly 0 where the task's rows of J
-/// span no volume but rounding ([`crate::singular`]).
+/// ±[`PRISMATIC_LIMIT`](crate::arm::coordinates::PRISMATIC_LIMIT). w_D and its gradient are exactly 0 where the task's rows of J
+/// span no volume but rounding ([`crate::arm::singular`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SerialChain<const N: usize> {
     /// The joints, base first.
@@ -41,42 +41,6 @@ pub struct SerialChain<const N: usize> {
     pub gravity: [f64; 3],
     /// The rows of J in w_D.
     pub task: TaskRows,
-}
-
-/// The model has another number of joints than the chain's type.
-#[cfg(feature = "table")]
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("arm `{arm}` has {joints} joints, not {expected}: write SerialChain::<{joints}>")]
-pub struct JointCountError {
-    /// The arm's name.
-    pub arm: std::string::String,
-    /// The joints of the model.
-    pub joints: usize,
-    /// The joints of the type, `N`.
-    pub expected: usize,
-}
-
-#[cfg(feature = "table")]
-impl<const N: usize> SerialChain<N> {
-    /// The chain of `model`.
-    ///
-    /// # Errors
-    /// When `model` has another number of joints than `N`.
-    pub fn new(model: &crate::Model) -> Result<Self, JointCountError> {
-        let joints =
-            <[Joint; N]>::try_from(model.joints.as_slice()).map_err(|_| JointCountError {
-                arm: model.name.clone(),
-                joints: model.joints.len(),
-                expected: N,
-            })?;
-        Ok(Self {
-            joints,
-            base: model.base,
-            tool: model.tool,
-            gravity: model.gravity,
-            task: model.task,
-        })
-    }
 }
 
 impl<const N: usize> Arm<N> for SerialChain<N> {

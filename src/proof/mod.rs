@@ -4,6 +4,8 @@
 //! the textbook formulas of [`SerialChain`] do.
 
 pub mod differences;
+#[doc(hidden)]
+pub mod random;
 mod report;
 mod scale;
 
@@ -14,8 +16,8 @@ use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 pub use report::{Deviation, Report};
 use scale::Scale;
 
-use crate::random::SplitMix64;
 use crate::{Arm, JointKind, SerialChain};
+use random::SplitMix64;
 
 /// A configuration of an arm, its motion, and its motors' torques.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector, Vector3};
 
-use crate::bounds::carried_inertia;
+use crate::arm::bounds::carried_inertia;
 use crate::generic::{ThinQr, factor, task_columns};
 use crate::{Arm, JointKind, Real, SerialChain, TaskRow};
 
@@ -28,7 +28,7 @@ impl<const N: usize> Scale<N> {
         chain: &SerialChain<N>,
         q: &SVector<f64, N>,
     ) -> Self {
-        let coordinates = crate::unrolled::coordinates(chain, &q.data.0[0]);
+        let coordinates = crate::arm::coordinates::coordinates(chain, &q.data.0[0]);
         let length = chain.length(&coordinates);
         let inertia = SVector::from_fn(|i, _| {
             Real::sqrt(carried_inertia(&chain.joints, i, |joint| {

@@ -4,7 +4,8 @@ mod paper;
 mod singular;
 mod suite;
 
-use ulna::{Model, SerialChain};
+use ulna::SerialChain;
+use ulna_table::Model;
 
 macro_rules! backends {
     ($(($Type:ident, $name:ident, $n:literal))*) => {
@@ -57,17 +58,17 @@ macro_rules! backends {
 ulna_generated::for_each_arm!(backends);
 
 fn model(name: &str) -> Model {
-    let path = format!("{}/arms/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../arms/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     Model::load(path).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 fn chain<const N: usize>(name: &str) -> SerialChain<N> {
-    SerialChain::new(&model(name)).unwrap_or_else(|error| panic!("{error}"))
+    SerialChain::try_from(&model(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
 fn another_number_of_joints_is_refused() {
-    let error = SerialChain::<6>::new(&model("ssrms")).expect_err("seven joints are not six");
+    let error = SerialChain::<6>::try_from(&model("ssrms")).expect_err("seven joints are not six");
     assert_eq!(
         error.to_string(),
         "arm `ssrms` has 7 joints, not 6: write SerialChain::<7>"

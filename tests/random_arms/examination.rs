@@ -1,9 +1,10 @@
 //! All checks of one arm, gathered: a table that fails one of them is put through the others too.
 
+use ulna::SerialChain;
 use ulna::proof::{State, states};
-use ulna::{Model, SerialChain};
 use ulna_codegen::interpret::Exact;
 use ulna_codegen::{Generated, Interpreter, generate};
+use ulna_table::Model;
 
 use super::arms::Arm;
 use super::caught::caught;
@@ -87,7 +88,7 @@ fn examine_model<const N: usize>(arm: &Arm, model: &Model, samples: usize) -> Ex
     let run = caught(|| {
         match (
             Interpreter::<N>::new(model),
-            SerialChain::<N>::new(model),
+            SerialChain::<N>::try_from(model),
             Exact::<N>::new(model),
         ) {
             (Ok(programs), Ok(chain), Ok(exact)) => {

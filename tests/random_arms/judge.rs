@@ -1,8 +1,8 @@
 //! What is compared with what, and how far apart they may be. The only file that knows.
 
 use nalgebra::{DMatrix, SVector};
+use ulna::arm::singular::least_volume_squared;
 use ulna::proof::{State, compare_with, condition, differences};
-use ulna::singular::least_volume_squared;
 use ulna::{Arm as _, SerialChain, TaskRow};
 use ulna_codegen::Interpreter;
 use ulna_codegen::interpret::Exact;

@@ -23,8 +23,8 @@ mod summary;
 mod table;
 mod totality;
 
-use ulna::Model;
-use ulna::diagnostics::{Diagnostics, Severity};
+use ulna_table::Model;
+use ulna_table::diagnostics::{Diagnostics, Severity};
 
 use arms::{arm, tree};
 

@@ -13,8 +13,9 @@ use anyhow::Context;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
-use ulna::experiment::Campaign;
-use ulna::{Arm, Scenario};
+use ulna::Arm;
+use ulna_study::Scenario;
+use ulna_study::experiment::Campaign;
 
 use crate::arms::{ForArm, GENERATED, with_arm};
 use crate::figures::{self, HeatMap};

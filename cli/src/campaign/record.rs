@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use ulna::Scenario;
-use ulna::scenario::{CampaignSettings, ScenarioArm};
+use ulna_study::Scenario;
+use ulna_study::scenario::{CampaignSettings, ScenarioArm};
 
 use crate::output::{refuse_special, write_whole};
 

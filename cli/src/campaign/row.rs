@@ -1,7 +1,7 @@
 //! [`Row`]: a case as a line of `campaign.csv`.
 
 use serde::{Deserialize, Serialize};
-use ulna::experiment::CampaignCase;
+use ulna_study::experiment::CampaignCase;
 
 /// One case. Norms over the healthy joints, N m (N); forces in N; `None` where there is no outcome.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]

@@ -7,7 +7,7 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{Color, RGBColor};
-use ulna::Scenario;
+use ulna_study::Scenario;
 
 use super::chart::{Axes, grid_panel, tick};
 use super::style::{BLACK, GREY, Pen, anchored};

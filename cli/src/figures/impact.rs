@@ -5,7 +5,7 @@ use plotters::element::Text;
 use plotters::prelude::DrawingBackend;
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, VPos};
-use ulna::experiment::{Case, Method, Study};
+use ulna_study::experiment::{Case, Method, Study};
 
 use super::chart::{Axes, Key, bar_panel, legend, panel, range};
 use super::law::{LAWS, WITHOUT, WITHOUT_LABEL};

@@ -1,6 +1,6 @@
 //! How the laws look in every figure.
 
-use ulna::experiment::Method;
+use ulna_study::experiment::Method;
 
 use super::stroke::Stroke;
 use super::style::{BLUE, GREEN, GREY, ORANGE};

@@ -3,7 +3,7 @@
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::DrawingBackend;
 use ulna::JointKind;
-use ulna::experiment::{Case, Method, Series, Study};
+use ulna_study::experiment::{Case, Method, Series, Study};
 
 use super::chart::{Axes, Key, legend, panel, range};
 use super::law::{LAWS, WITHOUT, WITHOUT_LABEL};

@@ -1,7 +1,7 @@
 //! What tool force buys: force error against impact.
 
 use plotters::prelude::DrawingBackend;
-use ulna::experiment::{Method, Study};
+use ulna_study::experiment::{Method, Study};
 
 use super::chart::{Axes, Key, Panel, legend, panel};
 use super::stroke::CURVES;

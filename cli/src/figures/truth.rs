@@ -2,7 +2,7 @@
 
 use plotters::prelude::DrawingBackend;
 use ulna::JointKind;
-use ulna::experiment::{Method, Truth, TruthRun};
+use ulna_study::experiment::{Method, Truth, TruthRun};
 
 use super::chart::{Axes, Key, double_log_panel, legend, panel, range};
 use super::stroke::{CURVES, EVENT, Stroke};

@@ -1,6 +1,6 @@
 //! The CSV files.
 
-use ulna::experiment::{Case, Study, Truth};
+use ulna_study::experiment::{Case, Study, Truth};
 
 use super::words::{name, solve_status, status};
 

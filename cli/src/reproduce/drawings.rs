@@ -1,9 +1,10 @@
 //! The figures of a scenario: those that it asks for, and a frontier for each experiment.
 
 use rayon::prelude::*;
-use ulna::experiment::{Study, Truth};
-use ulna::scenario::{Experiment, FigureKind};
-use ulna::{JointKind, Scenario};
+use ulna::JointKind;
+use ulna_study::Scenario;
+use ulna_study::experiment::{Study, Truth};
+use ulna_study::scenario::{Experiment, FigureKind};
 
 use super::Findings;
 use crate::figures::{self, Convergence, Figure, Impacts, SimulatedTorques, Torques, Tradeoffs};

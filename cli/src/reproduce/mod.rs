@@ -13,9 +13,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::*;
 use ulna::Arm;
-use ulna::Scenario;
-use ulna::experiment::{ExperimentError, Laboratory, Study, Truth};
-use ulna::scenario::Experiment;
+use ulna_study::Scenario;
+use ulna_study::experiment::{ExperimentError, Laboratory, Study, Truth};
+use ulna_study::scenario::Experiment;
 
 use crate::arms::{ForArm, GENERATED, with_arm};
 use crate::output::{self, Files};

@@ -1,8 +1,8 @@
 //! `results.json`, and the CSV files beside it.
 
 use serde::Serialize;
-use ulna::Scenario;
-use ulna::experiment::Case;
+use ulna_study::Scenario;
+use ulna_study::experiment::Case;
 
 use super::words::{name, status};
 use super::{Findings, csv};

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use comfy_table::presets;
 use comfy_table::{CellAlignment, Table};
-use ulna::experiment::{Case, Method, Study, Truth};
-use ulna::scenario::{Experiment, Reference, Scenario};
+use ulna_study::experiment::{Case, Method, Study, Truth};
+use ulna_study::scenario::{Experiment, Reference, Scenario};
 
 use super::Findings;
 use super::words::{name, seconds, significant, solve_status, what_locks};

@@ -1,8 +1,9 @@
 //! Numbers, joints and findings as text.
 
-use ulna::experiment::{Case, Method};
-use ulna::search::SolveStatus;
-use ulna::{Scenario, Status};
+use ulna::Status;
+use ulna_study::Scenario;
+use ulna_study::experiment::{Case, Method};
+use ulna_study::search::SolveStatus;
 
 /// "joint 2", "joints 1, 2 and 4" or "no joint": `joints` count from 0, names from 1.
 pub(super) fn joints_named(joints: &[usize]) -> String {

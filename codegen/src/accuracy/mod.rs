@@ -6,8 +6,9 @@
 mod state;
 mod walk;
 
-use ulna::random::SplitMix64;
-use ulna::{Model, Real as _, TaskRow};
+use ulna::proof::random::SplitMix64;
+use ulna::{Real as _, TaskRow};
+use ulna_table::Model;
 
 use crate::double_double::DoubleDouble;
 use crate::formulate::chain::Chain;
@@ -207,7 +208,7 @@ fn condition(model: &Model, q: &[f64], sensitivity: &[f64]) -> f64 {
         weights.iter().map(|weight| weight.abs()).sum::<f64>() * size
     });
     let sizes: Vec<f64> = (0..joints)
-        .map(|i| ulna::bounds::carried_inertia(&model.joints, i, |joint| q[joint]).sqrt())
+        .map(|i| ulna::arm::bounds::carried_inertia(&model.joints, i, |joint| q[joint]).sqrt())
         .collect();
     let of_masses = by_mass.chunks(joints).zip(&sizes).map(|(row, size)| {
         let row = row.iter().zip(&sizes);
@@ -219,12 +220,12 @@ fn condition(model: &Model, q: &[f64], sensitivity: &[f64]) -> f64 {
 
 /// `SerialChain::length` of a chain whose number of joints is known at run time.
 fn length(model: &Model, q: &[f64]) -> f64 {
-    ulna::singular::length(&model.joints, &model.tool, q)
+    ulna::arm::singular::length(&model.joints, &model.tool, q)
 }
 
 /// The same of the volume up to which w_D counts as 0.
 fn least_volume_squared(model: &Model, q: &[f64]) -> f64 {
-    ulna::singular::least_volume_squared(&model.joints, &model.tool, model.task, q)
+    ulna::arm::singular::least_volume_squared(&model.joints, &model.tool, model.task, q)
 }
 
 /// An error to one digit, not less than it is.

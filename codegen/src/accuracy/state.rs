@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 
 use nalgebra::SVector;
-use ulna::random::SplitMix64;
-use ulna::unrolled::coordinates;
-use ulna::{JointKind, Model, Real, SerialChain};
+use ulna::arm::coordinates::coordinates;
+use ulna::proof::random::SplitMix64;
+use ulna::{JointKind, Real, SerialChain};
+use ulna_table::Model;
 
 use crate::double_double::{DoubleDouble, LARGEST_ANGLE, portable_sin_cos};
 use crate::graph::{AngleSum, Input};

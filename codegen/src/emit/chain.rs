@@ -2,7 +2,8 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use ulna::{Joint, JointKind, Link, Model, Placement};
+use ulna::{Joint, JointKind, Link, Placement};
+use ulna_table::Model;
 
 use super::literal::literal;
 

@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use ulna::Model;
+use ulna_table::Model;
 
 use crate::Compiled;
 use crate::accuracy::{ALLOWANCE, Conditioned, LEAST_VOLUME, rounded_up};

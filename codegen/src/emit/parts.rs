@@ -88,7 +88,7 @@ pub(super) fn parts(
         }
         #(
             struct #kinds;
-            impl<R: ::ulna::Real> ::ulna::real::Part<State<R>> for #kinds {
+            impl<R: ::ulna::Real> ::ulna::kernels::real::Part<State<R>> for #kinds {
                 #[inline(always)]
                 fn run(state: &mut State<R>) {
                     #bodies
@@ -222,7 +222,7 @@ fn body(part: &Part, slots: &HashMap<Ident, usize>) -> TokenStream {
 
 #[cfg(test)]
 mod tests {
-    use ulna::Model;
+    use ulna_table::Model;
 
     use super::*;
 

@@ -1,6 +1,7 @@
 //! Inertial parameters: of a link, and of all links beyond a joint together.
 
-use ulna::{Joint, JointKind, Link, Model};
+use ulna::{Joint, JointKind, Link};
+use ulna_table::Model;
 
 use super::vector::{Sym3, Turn, Vec3};
 use crate::graph::{Expr, Graph};

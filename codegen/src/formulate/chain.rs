@@ -7,7 +7,8 @@
 
 use std::ops::Range;
 
-use ulna::{Angle, JointKind, Model, Placement, TaskRows};
+use ulna::{Angle, JointKind, Placement, TaskRows};
+use ulna_table::Model;
 
 use super::body::{Body, base_parameters};
 use super::vector::{Turn, Vec3, quarter_turns};

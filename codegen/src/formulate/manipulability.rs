@@ -16,7 +16,7 @@
 //! off a row with one, leaves rounding of that entry's size in all others. The generator tries the order in which H's rows
 //! are longest first (Cox and Higham 1998 on row-wise stability).
 //!
-//! det(JJᵀ), by which the task is judged to be singular or not (`ulna::singular`), needs J's rows made orthogonal too,
+//! det(JJᵀ), by which the task is judged to be singular or not (`ulna::arm::singular`), needs J's rows made orthogonal too,
 //! once: only its size counts.
 
 use super::factorization::{Factors, factor};

@@ -2,9 +2,9 @@
 
 use std::fmt::{self, Write};
 
-use ulna::Scenario;
-use ulna::experiment::{Case, Method, Study};
-use ulna::scenario::Experiment;
+use ulna_study::Scenario;
+use ulna_study::experiment::{Case, Method, Study};
+use ulna_study::scenario::Experiment;
 
 use crate::reproduce::table::reference_at;
 use crate::reproduce::words::{joints_named, name, significant};

@@ -2,8 +2,8 @@
 
 use std::fmt::{self, Write};
 
-use ulna::Scenario;
-use ulna::experiment::{Method, Truth, TruthRun};
+use ulna_study::Scenario;
+use ulna_study::experiment::{Method, Truth, TruthRun};
 
 use crate::reproduce::Findings;
 use crate::reproduce::drawings::{CONVERGENCE, SIMULATED};

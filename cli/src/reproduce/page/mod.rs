@@ -5,9 +5,9 @@ mod lock;
 
 use std::fmt::{self, Write};
 
-use ulna::Scenario;
-use ulna::experiment::Study;
-use ulna::scenario::{Experiment, FigureKind};
+use ulna_study::Scenario;
+use ulna_study::experiment::Study;
+use ulna_study::scenario::{Experiment, FigureKind};
 
 use super::Findings;
 use super::drawings::frontier_name;

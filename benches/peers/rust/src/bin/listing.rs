@@ -4,12 +4,12 @@
 //! that w_D may take it from: in the axes of the frame itself, and, by way of the frame, in world axes.
 
 use serde_json::{Value, json};
-use ulna::Model;
 use ulna_codegen::formulate::chain::Chain;
 use ulna_codegen::formulate::kinematics::{Twist, jacobian_in_group, jacobian_in_world};
 use ulna_codegen::formulate::mass_matrix::mass_matrix;
 use ulna_codegen::graph::{Graph, Input};
 use ulna_codegen::schedule::{Operand, Output, Program, schedule};
+use ulna_table::Model;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let table = std::env::args().nth(1).ok_or("usage: listing TABLE")?;

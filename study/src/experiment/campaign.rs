@@ -1,0 +1,154 @@
+//! [`Campaign`]: a scenario with every joint failing at many times, from random starts to random goals, under random forces.
+
+use nalgebra::{SVector, Vector6};
+
+use super::ExperimentError;
+use crate::scenario::{CampaignSettings, MotionPath, Scenario};
+use crate::search::{
+    ForcePriority, Objective, Operation, OperationOptions, SearchError, cancel_per_joint,
+    least_impact, optimal,
+};
+use ulna::control::failure::{Failure, LockedJoints};
+use ulna::proof::random::SplitMix64;
+use ulna::{Arm, Trajectory};
+
+/// The cases of a campaign. Each is a function of the seed and its number alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Campaign<'a, A, const N: usize> {
+    arm: &'a A,
+    scenario: &'a Scenario,
+}
+
+/// One case: a joint that locks in a random motion under a random force.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CampaignCase {
+    /// Its number, from 0.
+    pub index: u64,
+    /// The joint that locks, counted from 0.
+    pub failed_joint: usize,
+    /// When, s.
+    pub failure_time: f64,
+    /// What came of it; `Err` if the random motion cannot be flown or the limits leave no compensation.
+    pub outcome: Result<CampaignOutcome, ExperimentError>,
+}
+
+/// Norms of the impact over the healthy joints, N·m (N), and what they cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CampaignOutcome {
+    /// Without compensation.
+    pub before: f64,
+    /// With Eq. 16.
+    pub per_joint: f64,
+    /// With Eq. 20.
+    pub projected: f64,
+    /// With the least that keeps the tool force.
+    pub optimal: f64,
+    /// What Eq. 16 does to the tool force at the lock, N (with the moments' N·m, if the task has any).
+    pub per_joint_force_error: f64,
+    /// The locked joint's own step without compensation, N·m (N).
+    pub locked_before: f64,
+}
+
+impl<'a, A: Arm<N>, const N: usize> Campaign<'a, A, N> {
+    /// At so many times a motion is looked at, for the limits.
+    const SAMPLES: f64 = 100.0;
+
+    /// The campaign of `scenario`, whose motion and first experiment are varied.
+    ///
+    /// # Errors
+    /// When the scenario's own motion cannot be flown, as by another arm.
+    pub fn new(arm: &'a A, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
+        scenario.motion.plan(arm, super::KNOT_PERIOD)?;
+        Ok(Self { arm, scenario })
+    }
+
+    /// The failure times, s: the middles of equal parts of the motion.
+    pub fn failure_times(&self) -> Vec<f64> {
+        let count = self.scenario.campaign.failure_times;
+        let part = self.scenario.motion.duration / count as f64;
+        (0..count).map(|i| (i as f64 + 0.5) * part).collect()
+    }
+
+    /// Case number `index`: joints change fastest, failure times next.
+    pub fn case(&self, index: u64) -> CampaignCase {
+        let times = self.failure_times();
+        let failed_joint = (index % N as u64) as usize;
+        let time = (index / N as u64) % times.len() as u64;
+        let failure_time = times[time as usize];
+        CampaignCase {
+            index,
+            failed_joint,
+            failure_time,
+            outcome: self.outcome(index, failed_joint, failure_time),
+        }
+    }
+
+    fn outcome(
+        &self,
+        index: u64,
+        failed_joint: usize,
+        time: f64,
+    ) -> Result<CampaignOutcome, ExperimentError> {
+        let CampaignSettings {
+            seed,
+            start_spread,
+            goal_spread,
+            force_spread,
+            ..
+        } = self.scenario.campaign;
+        let mut random = SplitMix64::stream(seed, index);
+        let mut motion = self.scenario.motion.clone();
+        for start in &mut motion.start {
+            *start += start_spread * random.symmetric();
+        }
+        match &mut motion.path {
+            MotionPath::Joint(goal) => {
+                for goal in goal {
+                    *goal += goal_spread * random.symmetric();
+                }
+            }
+            MotionPath::Tool(displacement) => {
+                for row in self.arm.task().iter() {
+                    displacement[row.index()] += goal_spread * random.symmetric();
+                }
+            }
+        }
+        let mut force = Vector6::zeros();
+        for row in self.arm.task().iter() {
+            force[row.index()] = force_spread * random.symmetric();
+        }
+        let motion = motion.plan(self.arm, super::KNOT_PERIOD)?;
+        let no_joint = ExperimentError::Joint {
+            joint: failed_joint,
+            joints: N,
+        };
+        let joints = LockedJoints::new(&[failed_joint]).ok_or(no_joint)?;
+        let rated = self.scenario.experiments.first();
+        let options = OperationOptions {
+            sample_period: motion.duration() / Self::SAMPLES,
+            rated_torque: rated.map_or(SVector::repeat(f64::INFINITY), super::rated_torque),
+            ..OperationOptions::default()
+        };
+        let failure = Failure { joints, time };
+        let operation = Operation::new(self.arm, &motion, |_| force, &failure, &options)?;
+        Ok(assess(&operation, failed_joint)?)
+    }
+}
+
+fn assess<const N: usize>(
+    operation: &Operation<N>,
+    failed_joint: usize,
+) -> Result<CampaignOutcome, SearchError> {
+    let step = operation.step();
+    let per_joint = cancel_per_joint(operation)?.assessment;
+    let projected = least_impact(operation, Objective::LeastSquares)?.assessment;
+    let optimal = optimal(operation, ForcePriority::Exact)?.assessment;
+    Ok(CampaignOutcome {
+        before: operation.failure().joints.without(&step).norm(),
+        per_joint: per_joint.healthy_impact,
+        projected: projected.healthy_impact,
+        optimal: optimal.healthy_impact,
+        per_joint_force_error: per_joint.force_error(),
+        locked_before: step[failed_joint].abs(),
+    })
+}

@@ -1,0 +1,193 @@
+//! [`Laboratory`]: an arm on the motion of a scenario, and the experiments made with it.
+
+use nalgebra::SVector;
+
+use super::{
+    Case, ExperimentError, Flight, KNOT_PERIOD, Method, Search, Study, Tradeoff, list, rated_torque,
+};
+use crate::scenario::{Experiment, PlannedMotion, Scenario};
+use crate::search::{
+    CoefficientLaw, ForcePriority, FrontierPoint, Objective, Operation, OperationOptions, Outcome,
+    SearchError, Stepwise, cancel_per_joint, equivalent_per_joint, frontier, least_impact, optimal,
+};
+use ulna::Arm;
+use ulna::control::compensation::{Compensation, Controller};
+use ulna::control::failure::{Failure, LockedJoints};
+
+/// An arm on the motion of a scenario, ready for its experiments.
+#[derive(Clone, Debug)]
+pub struct Laboratory<'a, A, const N: usize> {
+    pub(super) arm: &'a A,
+    pub(super) scenario: &'a Scenario,
+    motion: PlannedMotion<N>,
+    failed_joints: LockedJoints<N>,
+}
+
+impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
+    /// How many points of a frontier are computed.
+    const FRONTIER_POINTS: u32 = 20;
+
+    /// Plans the motion.
+    ///
+    /// # Errors
+    /// When `arm` is not the scenario's, or cannot fly its motion.
+    pub fn new(arm: &'a A, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
+        let motion = scenario.motion.plan(arm, KNOT_PERIOD)?;
+        let failed = &scenario.failed_joints;
+        let failed_joints = LockedJoints::new(failed).ok_or_else(|| ExperimentError::Joint {
+            joint: failed.iter().copied().max().unwrap_or(0),
+            joints: N,
+        })?;
+        Ok(Self {
+            arm,
+            scenario,
+            motion,
+            failed_joints,
+        })
+    }
+
+    /// The planned motion.
+    pub fn motion(&self) -> &PlannedMotion<N> {
+        &self.motion
+    }
+
+    /// Every experiment at every failure time, in the scenario's order.
+    ///
+    /// # Errors
+    /// When the motion under the tool force cannot be looked at, as with torques that are no finite numbers.
+    pub fn run(&self) -> Result<Vec<Study>, ExperimentError> {
+        let experiments = self.scenario.experiments.iter();
+        let studies = experiments.flat_map(|experiment| {
+            let times = self.scenario.failure_times.iter();
+            times.map(move |time| self.study(experiment, *time))
+        });
+        studies.collect()
+    }
+
+    /// One experiment with the failure at `failure_time`.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn study(
+        &self,
+        experiment: &Experiment,
+        failure_time: f64,
+    ) -> Result<Study, ExperimentError> {
+        let operation = self.operation(experiment, failure_time)?;
+        let cases = Method::ALL.map(|method| self.case(experiment, &operation, method));
+        let per_joint = cases[Method::PerJoint as usize].force_error;
+        Ok(Study {
+            section: experiment.section.clone(),
+            failure_time,
+            tradeoff: tradeoff(&operation, per_joint, Self::FRONTIER_POINTS).ok(),
+            cases: cases.into(),
+        })
+    }
+
+    pub(super) fn operation(
+        &self,
+        experiment: &Experiment,
+        failure_time: f64,
+    ) -> Result<Operation<N>, SearchError> {
+        let failure = Failure {
+            joints: self.failed_joints,
+            time: failure_time,
+        };
+        let options = OperationOptions {
+            sample_period: self.scenario.cycle,
+            rated_torque: rated_torque(experiment),
+            ..OperationOptions::default()
+        };
+        let force = |time| experiment.force.at(time);
+        Operation::new(self.arm, &self.motion, force, &failure, &options)
+    }
+
+    fn case(&self, experiment: &Experiment, operation: &Operation<N>, method: Method) -> Case {
+        let found = self.search(operation, method);
+        let (compensation, search) = match found {
+            Ok(outcome) => (
+                outcome.compensation,
+                Ok(Search {
+                    status: outcome.status,
+                    gap: outcome.gap,
+                    iterations: outcome.iterations,
+                    seconds: outcome.seconds,
+                }),
+            ),
+            Err(error) => (Compensation::none(), Err(error)),
+        };
+        let assessment = operation.assess(&compensation);
+        let failure = operation.failure();
+        let controller =
+            Controller::new(self.arm, compensation).with_rated_torque(*operation.rated_torque());
+        let flight = Flight::fly(
+            &controller,
+            &self.motion,
+            &experiment.force,
+            failure,
+            self.scenario.cycle,
+        );
+        let coefficients = match compensation {
+            Compensation::PerJoint(k) | Compensation::Projected(k) => k,
+            Compensation::Optimal { .. } => equivalent_per_joint(operation, &assessment),
+        };
+        Case {
+            section: experiment.section.clone(),
+            method,
+            failed_joints: failure.joints.iter().collect(),
+            failure_time: failure.time,
+            rated_torque: experiment.rated_torque.clone(),
+            impact_before: list(&operation.step().abs()),
+            impact_after: list(&assessment.impact.abs()),
+            coefficients: list(&coefficients),
+            force_error: assessment.force_error(),
+            search,
+            flight,
+        }
+    }
+
+    pub(super) fn search(
+        &self,
+        operation: &Operation<N>,
+        method: Method,
+    ) -> Result<Outcome<N>, SearchError> {
+        let grid = self.scenario.search;
+        let stepwise = Stepwise {
+            start: SVector::repeat(grid.start),
+            ..Stepwise::with_step(grid.step)
+        };
+        match method {
+            Method::StepwisePerJoint => stepwise.search(operation, CoefficientLaw::PerJoint),
+            Method::PerJoint => cancel_per_joint(operation),
+            Method::StepwiseProjected => stepwise.search(operation, CoefficientLaw::Projected),
+            Method::Projected => least_impact(operation, Objective::LeastSquares),
+            Method::Optimal => optimal(operation, ForcePriority::Exact),
+        }
+    }
+}
+
+/// The frontier, up to the force error from which more of it buys nothing: with `most` N the impact is all gone, if limits allow.
+fn tradeoff<const N: usize>(
+    operation: &Operation<N>,
+    most: f64,
+    points: u32,
+) -> Result<Tradeoff, SearchError> {
+    let up_to = |most: f64| {
+        let allowed: Vec<f64> = (0..=points)
+            .map(|i| most * f64::from(i) / f64::from(points))
+            .collect();
+        let point = |point: &FrontierPoint<N>| {
+            let assessment = &point.outcome.assessment;
+            (assessment.force_error(), assessment.healthy_impact)
+        };
+        let points = frontier(operation, &allowed)?;
+        Ok::<Vec<(f64, f64)>, SearchError>(points.iter().map(point).collect())
+    };
+    let coarse = up_to(most)?;
+    let first = coarse.first().map_or(0.0, |point| point.1);
+    let least = coarse.iter().map(|point| point.1).fold(first, f64::min);
+    let enough = coarse.iter().find(|point| point.1 <= least + 1e-6 * first);
+    Ok(Tradeoff {
+        frontier: up_to(enough.map_or(most, |point| point.0))?,
+    })
+}

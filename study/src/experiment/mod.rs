@@ -1,0 +1,67 @@
+//! Section 5 of the paper as a library: a [`Scenario`](crate::Scenario) in, the cases with their series out.
+//!
+//! A *case* is one experiment, one failure time, one way to find a compensation. The impact is that of Eq. 18 for
+//! ever shorter control cycles; extremes and series are those of a [`Controller`](ulna::Controller) that flies the whole motion cycle by cycle.
+//! Results carry plain lists, one entry for each joint, so that tables and figures need not know how many there are.
+
+mod campaign;
+mod case;
+mod flight;
+mod laboratory;
+mod truth;
+
+use nalgebra::SVector;
+
+use crate::scenario::{Experiment, PlanError};
+use crate::search::SearchError;
+use crate::simulation::{Ending, SimulationError};
+
+pub use campaign::{Campaign, CampaignCase, CampaignOutcome};
+pub use case::{Case, Method, Search, Study, Tradeoff};
+pub use flight::{Flight, Series};
+pub use laboratory::Laboratory;
+pub use truth::{BrakeImpulse, Truth, TruthRun};
+
+/// Why a scenario cannot be tried out.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ExperimentError {
+    /// The motion cannot be flown.
+    #[error("the motion cannot be flown: {0}")]
+    Motion(#[from] PlanError),
+    /// A joint that the arm does not have, counted from 0.
+    #[error("joint {} fails, the arm has {joints}", joint + 1)]
+    Joint {
+        /// Counted from 0.
+        joint: usize,
+        /// How many there are.
+        joints: usize,
+    },
+    /// The operation cannot be looked at.
+    #[error(transparent)]
+    Operation(#[from] SearchError),
+    /// The operation cannot be simulated.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// A simulation did not come to its end.
+    #[error("the simulated lock at {time} s did not come to its end: {ending}")]
+    Unfinished {
+        /// The failure time, s.
+        time: f64,
+        /// How it ended.
+        ending: Ending,
+    },
+}
+
+/// The largest time between two knots of a tool path, s.
+const KNOT_PERIOD: f64 = 0.02;
+
+/// Infinite where there is no limit.
+fn rated_torque<const N: usize>(experiment: &Experiment) -> SVector<f64, N> {
+    let rated = experiment.rated_torque.as_deref();
+    let rated = rated.and_then(|rated| <[f64; N]>::try_from(rated).ok());
+    rated.map_or(SVector::repeat(f64::INFINITY), SVector::from)
+}
+
+fn list<const N: usize>(vector: &SVector<f64, N>) -> Vec<f64> {
+    vector.as_slice().to_vec()
+}

@@ -1,0 +1,106 @@
+//! Which arm a scenario is about: one that the program was compiled with, or any table.
+
+use std::path::{Path, PathBuf};
+
+use ulna::{Joint, JointKind};
+use ulna_table::Model;
+use ulna_table::diagnostics::{Diagnostic, Diagnostics, Sink};
+use ulna_table::toml_reader::{Located, closest};
+
+/// An arm that the program was compiled with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KnownArm {
+    /// The name in its table.
+    pub name: &'static str,
+    /// Its joints, base first.
+    pub joints: &'static [Joint],
+}
+
+/// The arm of a scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ScenarioArm {
+    /// One that the program was compiled with.
+    Known(KnownArm),
+    /// Read from a table.
+    Table {
+        /// Where the table is.
+        path: PathBuf,
+        /// What is in it.
+        model: Box<Model>,
+    },
+}
+
+impl ScenarioArm {
+    /// The arm's name.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Known(arm) => arm.name,
+            Self::Table { model, .. } => &model.name,
+        }
+    }
+
+    /// Its joints, base first.
+    pub fn joints(&self) -> &[Joint] {
+        match self {
+            Self::Known(arm) => arm.joints,
+            Self::Table { model, .. } => &model.joints,
+        }
+    }
+
+    /// The arm called `name`: a path if it ends in `.toml`.
+    /// `Err` with the table's errors, or without where the fault is in the scenario and has been reported.
+    pub(super) fn find(
+        name: &Located<String>,
+        folder: &Path,
+        known: &[KnownArm],
+        sink: &Sink,
+    ) -> Result<Self, Option<Diagnostics>> {
+        let written = name.value.as_str();
+        if Path::new(written)
+            .extension()
+            .is_some_and(|extension| extension == "toml")
+        {
+            let path = folder.join(written);
+            return match Model::load(&path) {
+                Ok(model) => Ok(Self::Table {
+                    path,
+                    model: model.into(),
+                }),
+                Err(errors) => {
+                    let message = format!("the table {written:?} is refused");
+                    sink.push(
+                        Diagnostic::error(name.span.clone(), message)
+                            .label("for the reasons that follow"),
+                    );
+                    Err(Some(errors))
+                }
+            };
+        }
+        if let Some(arm) = known.iter().find(|arm| arm.name == written) {
+            return Ok(Self::Known(*arm));
+        }
+        let names: Vec<_> = known.iter().map(|arm| arm.name).collect();
+        let help = match closest(written, names.iter().copied()) {
+            Some(meant) => format!("did you mean {meant:?}?"),
+            None => format!(
+                "compiled into the program: {}; for any other arm write the path of its table, ending in .toml",
+                names.join(", ")
+            ),
+        };
+        let message = format!("no arm is called `{}`", written.escape_debug());
+        sink.push(
+            Diagnostic::error(name.span.clone(), message)
+                .label("unknown arm")
+                .help(help),
+        );
+        Err(None)
+    }
+}
+
+/// What of a joint's DH row moves, at q = 0: θ of a revolute joint, d of a prismatic one.
+pub(super) fn zero_position(joint: &Joint) -> f64 {
+    match joint.kind {
+        JointKind::Revolute => joint.theta.radians,
+        JointKind::Prismatic => joint.d,
+    }
+}

@@ -1,0 +1,116 @@
+//! [`Motion`]: the planned motion of a scenario, for an arm of any number of joints.
+
+use nalgebra::{SVector, Vector6};
+
+use crate::tool_path::{StraightLine, ToolPath};
+use ulna::control::trajectory::TrajectoryError;
+use ulna::{Arm, JointLimits, JointState, Trajectory, Trapezoid};
+
+/// A planned motion from rest to rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// Where it starts: q, rad (m).
+    pub start: Vec<f64>,
+    /// How it goes on.
+    pub path: Path,
+    /// The whole motion, s.
+    pub duration: f64,
+    /// Speeding up and slowing down, s each.
+    pub blend: f64,
+    /// Largest |q̇_i|, rad/s (m/s); infinite where there is no limit.
+    pub max_velocity: Vec<f64>,
+    /// Largest |q̈_i|, rad/s² (m/s²); infinite where there is no limit.
+    pub max_acceleration: Vec<f64>,
+}
+
+/// What moves in a straight line.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Path {
+    /// The joints, to q.
+    Joint(Vec<f64>),
+    /// The tool, by `[translation; rotation vector]`, world axes, m and rad.
+    Tool(Vector6<f64>),
+}
+
+impl Motion {
+    /// The motion for `arm`; the knots of a tool path are `knot_period` s apart.
+    ///
+    /// # Errors
+    /// When the motion cannot be flown: it is that of another arm, too fast for a joint, or leads through a singular pose.
+    pub fn plan<const N: usize>(
+        &self,
+        arm: &impl Arm<N>,
+        knot_period: f64,
+    ) -> Result<PlannedMotion<N>, PlanError> {
+        let start = for_each_joint(&self.start)?;
+        let limits = JointLimits {
+            velocity: for_each_joint(&self.max_velocity)?,
+            acceleration: for_each_joint(&self.max_acceleration)?,
+        };
+        let (duration, blend) = (self.duration, self.blend);
+        Ok(match &self.path {
+            Path::Joint(goal) => {
+                let goal = for_each_joint(goal)?;
+                PlannedMotion::Joint(Trapezoid::new(start, goal, duration, blend, &limits)?)
+            }
+            Path::Tool(displacement) => {
+                let line = StraightLine {
+                    displacement: *displacement,
+                    duration,
+                    blend,
+                    knot_period,
+                };
+                PlannedMotion::Tool(ToolPath::straight(arm, &start, &line, &limits)?)
+            }
+        })
+    }
+}
+
+fn for_each_joint<const N: usize>(numbers: &[f64]) -> Result<SVector<f64, N>, PlanError> {
+    let numbers: [f64; N] = numbers.try_into().map_err(|_| PlanError::Joints {
+        motion: numbers.len(),
+        arm: N,
+    })?;
+    Ok(numbers.into())
+}
+
+/// Why a [`Motion`] cannot be flown.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum PlanError {
+    /// The motion is for another number of joints.
+    #[error("the motion is for {motion} joints, the arm has {arm}")]
+    Joints {
+        /// The joints of the motion.
+        motion: usize,
+        /// The joints of the arm.
+        arm: usize,
+    },
+    /// Too fast for a joint, or through a singular pose.
+    #[error(transparent)]
+    Trajectory(#[from] TrajectoryError),
+}
+
+/// A [`Motion`] that an arm can fly.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlannedMotion<const N: usize> {
+    /// Straight in joint space.
+    Joint(Trapezoid<N>),
+    /// Straight in space.
+    Tool(ToolPath<N>),
+}
+
+impl<const N: usize> Trajectory<N> for PlannedMotion<N> {
+    fn duration(&self) -> f64 {
+        match self {
+            Self::Joint(motion) => motion.duration(),
+            Self::Tool(motion) => motion.duration(),
+        }
+    }
+
+    fn state(&self, time: f64) -> JointState<N> {
+        match self {
+            Self::Joint(motion) => motion.state(time),
+            Self::Tool(motion) => motion.state(time),
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! `[motion]`.
+
+use nalgebra::Vector6;
+
+use super::{DURATION, Reader};
+use crate::scenario::arm::zero_position;
+use crate::scenario::motion::{Motion, Path};
+use crate::scenario::read::{Angles, List, MotionTable, Numbers, PathTable};
+use ulna::{Joint, JointKind};
+use ulna_table::AngleUnit;
+use ulna_table::toml_reader::{Bound, Located};
+
+const POSITION: Bound = Bound {
+    range: -100.0..=100.0,
+    unit: "rad (m)",
+    help: "if angles are in degrees, write `angle_unit = \"deg\"`",
+};
+const RATE: Bound = Bound {
+    range: 1e-9..=1e6,
+    unit: "rad/s, rad/s^2 (m/s, m/s^2)",
+    help: "a limit is positive; leave the key out if there is none",
+};
+const DISPLACEMENT: Bound = Bound {
+    range: -100.0..=100.0,
+    unit: "m, rad",
+    help: "three lengths in metres, then a rotation vector in radians",
+};
+/// A knot every 0.02 s is integrated and kept, and a campaign does it for every case.
+const TOOL_DURATION: Bound = Bound {
+    range: 1e-3..=1e3,
+    unit: "s for a motion of the tool",
+    help: "write a shorter duration, or `kind = \"joint\"`",
+};
+
+impl MotionTable {
+    /// How many joints the motion is for, if its lists agree about it.
+    pub(super) fn joint_count(&self) -> Option<usize> {
+        let count = self.start.as_ref()?.value.len();
+        let agreed = match self.path.as_ref()? {
+            PathTable::Joint(goal) => goal.as_ref()?.value.len() == count,
+            PathTable::Tool(_) => true,
+        };
+        agreed.then_some(count)
+    }
+}
+
+impl Reader<'_> {
+    pub(super) fn motion(&self, table: &MotionTable) -> Option<Motion> {
+        let start = self.positions(&table.start, table.angles);
+        let path = table.path.as_ref().and_then(|path| match path {
+            PathTable::Joint(goal) => self.positions(goal, table.angles).map(Path::Joint),
+            PathTable::Tool(displacement) => {
+                let numbers =
+                    self.counted(displacement, 6, "three lengths and a rotation vector")?;
+                let numbers = DISPLACEMENT.admit_all(numbers, self.sink)?;
+                Some(Path::Tool(Vector6::from_column_slice(&numbers)))
+            }
+        });
+        let bound = match table.path {
+            Some(PathTable::Tool(_)) => &TOOL_DURATION,
+            _ => &DURATION,
+        };
+        let duration = self.bounded(&table.duration, bound);
+        let blend = table.blend.as_ref();
+        let blend = blend.and_then(|blend| self.blend(blend, duration));
+        let max_velocity = self.limits(&table.max_velocity);
+        let max_acceleration = self.limits(&table.max_acceleration);
+        Some(Motion {
+            start: start?,
+            path: path?,
+            duration: duration?,
+            blend: blend?,
+            max_velocity: max_velocity?,
+            max_acceleration: max_acceleration?,
+        })
+    }
+
+    fn blend(&self, blend: &Located<f64>, duration: Option<f64>) -> Option<f64> {
+        if blend.value > 0.0 && duration.is_none_or(|duration| 2.0 * blend.value <= duration) {
+            return Some(blend.value);
+        }
+        let message = format!("{} does not fit twice into the duration", blend.name);
+        let most = match duration {
+            Some(duration) => format!("above 0 and at most {} s", duration / 2.0),
+            None => "above 0 s".to_owned(),
+        };
+        self.refuse(
+            &blend.span,
+            message,
+            most,
+            "the arm speeds up for one blend and slows down for another",
+        );
+        None
+    }
+
+    /// q, rad (m).
+    fn positions(&self, list: &List, angles: Option<Angles>) -> Option<Vec<f64>> {
+        let values = self.in_radians(list, &POSITION)?;
+        let joints = self.joints?;
+        let zero = |joint: &Joint| match angles? {
+            Angles::Dh => Some(zero_position(joint)),
+            Angles::Q => Some(0.0),
+        };
+        let values = values.iter().zip(joints);
+        values
+            .map(|(value, joint)| Some(value - zero(joint)?))
+            .collect()
+    }
+
+    /// Limits of rates; infinite without a list.
+    fn limits(&self, list: &List) -> Option<Vec<f64>> {
+        if list.is_none() {
+            return Some(vec![f64::INFINITY; self.joint_count?]);
+        }
+        self.in_radians(list, &RATE)
+    }
+
+    /// A number for each joint, turned into radians where the joint turns.
+    fn in_radians(&self, list: &List, bound: &Bound) -> Option<Vec<f64>> {
+        let numbers = self.for_each_joint(list)?;
+        let (unit, joints) = (self.unit?, self.joints?);
+        let converted: Numbers = numbers
+            .iter()
+            .zip(joints)
+            .map(|(number, joint)| {
+                let degrees = unit == AngleUnit::Degrees && joint.kind == JointKind::Revolute;
+                let number = number.clone()?;
+                Some(number.map(|value| if degrees { value.to_radians() } else { value }))
+            })
+            .collect();
+        bound.admit_all(&converted, self.sink)
+    }
+}

@@ -1,0 +1,244 @@
+//! [`Operation`]: a planned motion with a failure in it, at every sample time, and what a compensation does to it.
+
+use nalgebra::{SVector, Vector6};
+
+use super::SearchError;
+use ulna::Arm;
+use ulna::control::compensation::{Compensation, Limits, Projector, TaskPose};
+use ulna::control::failure::{Failure, LockedJoints};
+use ulna::control::trajectory::Trajectory;
+
+/// How an operation is looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OperationOptions<const N: usize> {
+    /// The largest time between two samples, s.
+    pub sample_period: f64,
+    /// Δt of Eq. 18: how long after t_f the torques count as those after the lock, s. 0 is the limit of ever shorter cycles.
+    pub control_period: f64,
+    /// The projector of every law.
+    pub projector: Projector,
+    /// Rated torques, N·m (N); infinite where there is no limit.
+    pub rated_torque: SVector<f64, N>,
+}
+
+impl<const N: usize> Default for OperationOptions<N> {
+    /// Samples every 50 ms, an instant lock, the static projector, no limits.
+    fn default() -> Self {
+        Self {
+            sample_period: 0.05,
+            control_period: 0.0,
+            projector: Projector::Static,
+            rated_torque: SVector::repeat(f64::INFINITY),
+        }
+    }
+}
+
+/// One time of an operation.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample<const N: usize> {
+    /// When, s.
+    pub time: f64,
+    /// The joints that are locked by then.
+    pub locked: LockedJoints<N>,
+    /// `ID + Jᵀ F_e` of the motion with the locked joints at rest, N·m (N).
+    pub planned: SVector<f64, N>,
+    /// What a compensation is made of there.
+    pub pose: TaskPose<N>,
+}
+
+/// A planned motion under a tool wrench, with joints that lock on the way: the whole of what a search looks at.
+#[derive(Clone, Debug)]
+pub struct Operation<const N: usize> {
+    failure: Failure<N>,
+    rated_torque: SVector<f64, N>,
+    /// In time order: healthy up to t_f, locked from t_f + Δt on.
+    samples: Vec<Sample<N>>,
+    /// The index of the first sample after the lock.
+    lock: usize,
+}
+
+/// What a compensation does to an operation, all cuts at rated torques included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assessment<const N: usize> {
+    /// Δτ̃ of Eq. 18, after minus before, N·m (N). A locked joint's step goes into its brake.
+    pub impact: SVector<f64, N>,
+    /// The norm of the impact over the joints that are not locked, N·m.
+    pub healthy_impact: f64,
+    /// h of Eq. 13 just before the lock, N and N·m.
+    pub force_error_before: Vector6<f64>,
+    /// h of Eq. 13 just after it.
+    pub force_error_after: Vector6<f64>,
+    /// The largest norm of h over the whole operation.
+    pub max_force_error: f64,
+    /// The largest |τ_i| over the whole operation, brakes excepted, N·m (N).
+    pub peak_torque: SVector<f64, N>,
+    /// The largest |U_i| over the whole operation, N·m (N).
+    pub peak_compensation: SVector<f64, N>,
+}
+
+impl<const N: usize> Assessment<N> {
+    /// The larger norm of h just before and just after the lock.
+    pub fn force_error(&self) -> f64 {
+        self.force_error_before
+            .norm()
+            .max(self.force_error_after.norm())
+    }
+}
+
+impl<const N: usize> Operation<N> {
+    /// Looks at the motion of `arm` along `trajectory`, whose tool is to exert `wrench(t)` (`[f; n]`, world axes), with `failure` in it.
+    /// The healthy joints keep to their plan.
+    pub fn new(
+        arm: &impl Arm<N>,
+        trajectory: &impl Trajectory<N>,
+        wrench: impl Fn(f64) -> Vector6<f64>,
+        failure: &Failure<N>,
+        options: &OperationOptions<N>,
+    ) -> Result<Self, SearchError> {
+        let (duration, after) = (trajectory.duration(), failure.time + options.control_period);
+        let samples = duration / options.sample_period;
+        if !(samples > 0.0 && samples <= 1e6) {
+            return Err(SearchError::Argument {
+                name: "sample period",
+                range: "above 0 s and at least a millionth of the motion",
+                value: options.sample_period,
+            });
+        }
+        if !(options.control_period >= 0.0 && options.control_period.is_finite()) {
+            return Err(SearchError::Argument {
+                name: "control period",
+                range: "a time of at least 0 s",
+                value: options.control_period,
+            });
+        }
+        if !(failure.time >= 0.0 && after <= duration) {
+            return Err(SearchError::FailureTime {
+                time: failure.time,
+                duration,
+            });
+        }
+        let sample = |time: f64, locked: LockedJoints<N>| {
+            let state = if locked.is_empty() {
+                trajectory.state(time)
+            } else {
+                failure.state(trajectory, time)
+            };
+            let pose = TaskPose::new(arm, &state.q, locked, options.projector);
+            let planned = arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
+                + pose.jacobian.tr_mul(&wrench(time));
+            if !planned.iter().all(|torque| torque.is_finite()) {
+                return Err(SearchError::NotFinite { time });
+            }
+            Ok(Sample {
+                time,
+                locked,
+                planned,
+                pose,
+            })
+        };
+        let healthy = times(0.0, failure.time, options.sample_period)
+            .map(|time| sample(time, LockedJoints::NONE));
+        let locked =
+            times(after, duration, options.sample_period).map(|time| sample(time, failure.joints));
+        let mut samples = healthy.collect::<Result<Vec<_>, _>>()?;
+        let lock = samples.len();
+        samples.extend(locked.collect::<Result<Vec<_>, _>>()?);
+        Ok(Self {
+            failure: *failure,
+            rated_torque: options.rated_torque.map(|rated| rated.max(0.0)),
+            samples,
+            lock,
+        })
+    }
+
+    /// The failure.
+    pub fn failure(&self) -> &Failure<N> {
+        &self.failure
+    }
+
+    /// The rated torques, N·m (N).
+    pub fn rated_torque(&self) -> &SVector<f64, N> {
+        &self.rated_torque
+    }
+
+    /// Every sample, in time order.
+    pub fn samples(&self) -> &[Sample<N>] {
+        &self.samples
+    }
+
+    /// The index of the first sample after the lock.
+    pub(super) fn lock(&self) -> usize {
+        self.lock
+    }
+
+    /// t_f, all joints still moving.
+    pub fn before(&self) -> &Sample<N> {
+        &self.samples[self.lock - 1]
+    }
+
+    /// t_f + Δt, the failed joints locked.
+    pub fn after(&self) -> &Sample<N> {
+        &self.samples[self.lock]
+    }
+
+    /// The torque step without compensation, after minus before, N·m (N): −Δτ of the impact torque, plus Jᵀ times what the wrench grew by.
+    pub fn step(&self) -> SVector<f64, N> {
+        self.after().planned - self.before().planned
+    }
+
+    /// The joints that the failure leaves, counted from 0.
+    pub fn healthy(&self) -> impl Iterator<Item = usize> {
+        self.failure.joints.healthy()
+    }
+
+    /// What `compensation` does to the operation, cut at rated torques as a control cycle cuts it.
+    pub fn assess(&self, compensation: &Compensation<N>) -> Assessment<N> {
+        let mut torques = Vec::with_capacity(self.samples.len());
+        let mut max_force_error = 0.0_f64;
+        let mut peak_torque = SVector::<f64, N>::zeros();
+        let mut peak_compensation = SVector::<f64, N>::zeros();
+        for sample in &self.samples {
+            let limits = Limits {
+                rated_torque: self.rated_torque,
+                locked: sample.locked,
+            };
+            let wanted = sample.pose.compensation(compensation);
+            let (torque, _) = limits.cut(&sample.planned, &wanted, compensation.law());
+            let acting = torque - sample.planned;
+            let force_error = sample.pose.null_space.static_wrench(&acting).norm();
+            max_force_error = max_force_error.max(force_error);
+            peak_torque = peak_torque.sup(&sample.locked.without(&torque).abs());
+            peak_compensation = peak_compensation.sup(&acting.abs());
+            torques.push(torque);
+        }
+        let (before, after) = (torques[self.lock - 1], torques[self.lock]);
+        let impact = after - before;
+        let force_error = |sample: &Sample<N>, torque: SVector<f64, N>| {
+            sample
+                .pose
+                .null_space
+                .static_wrench(&(torque - sample.planned))
+        };
+        Assessment {
+            impact,
+            healthy_impact: self.failure.joints.without(&impact).norm(),
+            force_error_before: force_error(self.before(), before),
+            force_error_after: force_error(self.after(), after),
+            max_force_error,
+            peak_torque,
+            peak_compensation,
+        }
+    }
+}
+
+/// From `start` to `end`, both included, at most `period` apart.
+fn times(start: f64, end: f64, period: f64) -> impl Iterator<Item = f64> {
+    let steps = ((end - start) / period).ceil() as u32;
+    (0..=steps).map(move |i| {
+        if i == steps {
+            end
+        } else {
+            start + (end - start) * f64::from(i) / f64::from(steps)
+        }
+    })
+}

@@ -1,0 +1,364 @@
+//! Section 5 on the paper-like scenario: the numbers that an independent prototype found, and what has to hold for any case.
+
+use std::path::Path;
+use std::sync::OnceLock;
+
+use ulna::{SerialChain, Status};
+use ulna_generated::Ssrms;
+use ulna_study::Scenario;
+use ulna_study::experiment::{Case, ExperimentError, Laboratory, Method, Study};
+use ulna_study::scenario::KnownArm;
+use ulna_study::search::SearchError;
+
+const PAPER_LIKE: &str = include_str!("../../scenarios/paper_like.toml");
+const KNOWN: &[KnownArm] = &[KnownArm {
+    name: "ssrms",
+    joints: &Ssrms::CHAIN.joints,
+}];
+const TIMES: [f64; 3] = [3.0, 10.0, 18.0];
+
+fn scenario(edits: &[(&str, &str)]) -> Scenario {
+    let text = edits
+        .iter()
+        .fold(PAPER_LIKE.to_owned(), |text, (from, to)| {
+            assert!(text.contains(from), "the scenario has no {from:?}");
+            text.replacen(from, to, 1)
+        });
+    Scenario::parse(&text, "test.toml", Path::new("scenarios"), KNOWN).unwrap()
+}
+
+/// The scenario with longer control cycles: extremes are looked for at fewer times, the rest is the same.
+fn studies() -> &'static [Study] {
+    static STUDIES: OnceLock<Vec<Study>> = OnceLock::new();
+    STUDIES.get_or_init(|| {
+        let scenario = scenario(&[("cycle = 0.01", "cycle = 0.05")]);
+        Laboratory::new(&Ssrms, &scenario).unwrap().run().unwrap()
+    })
+}
+
+fn case(section: &str, time: f64, method: Method) -> &'static Case {
+    let mut studies = studies().iter();
+    let study = studies.find(|study| study.section == section && study.failure_time == time);
+    study.unwrap().case(method)
+}
+
+fn assert_close(value: f64, expected: f64, tolerance: f64, what: &str) {
+    assert!(
+        (value / expected - 1.0).abs() <= tolerance,
+        "{what}: {value}, not {expected}"
+    );
+}
+
+#[test]
+fn every_experiment_time_and_method_is_there_in_order() {
+    let found: Vec<_> = studies()
+        .iter()
+        .map(|study| (study.section.as_str(), study.failure_time))
+        .collect();
+    let expected: Vec<_> = ["5.2", "5.3", "5.4"]
+        .into_iter()
+        .flat_map(|section| TIMES.map(|time| (section, time)))
+        .collect();
+    assert_eq!(found, expected);
+    for study in studies() {
+        let methods: Vec<_> = study.cases.iter().map(|case| case.method).collect();
+        assert_eq!(methods, Method::ALL);
+    }
+}
+
+#[test]
+fn impact_before_is_that_of_the_prototype() {
+    let expected = [
+        [31.34, 33.02, 11.22, 0.425, 0.174, 1.049],
+        [35.97, 61.95, 23.23, 1.237, 0.662, 1.574],
+        [7.66, 54.81, 14.28, 0.339, 0.070, 0.574],
+    ];
+    for (time, expected) in TIMES.into_iter().zip(expected) {
+        let before = &case("5.2", time, Method::PerJoint).impact_before;
+        for (joint, expected) in expected.into_iter().enumerate() {
+            assert_close(
+                before[joint],
+                expected,
+                5e-3,
+                &format!("joint {} at {time} s", joint + 1),
+            );
+        }
+        // The tool point is on joint 7's axis.
+        assert!(before[6] < 5e-4);
+    }
+}
+
+#[test]
+fn eq_16_cancels_every_joint_at_the_prototypes_coefficients() {
+    for time in TIMES {
+        let case = case("5.2", time, Method::PerJoint);
+        for joint in 0..6 {
+            let left = case.impact_after[joint] / case.impact_before[joint];
+            assert!(left <= 0.01, "joint {} at {time} s: {left}", joint + 1);
+        }
+        assert!(
+            case.suppression_percent()[..6]
+                .iter()
+                .all(|percent| *percent >= 99.0)
+        );
+        // The price: the tool force.
+        assert!(case.force_error > 5.0 && case.flight.max_force_error > 100.0);
+    }
+    let coefficients = &case("5.2", 10.0, Method::PerJoint).coefficients;
+    for (joint, expected) in [5.11e7, -8.07e7, 3.90e7, -3.75e7, 1.08e7, 0.78e7]
+        .into_iter()
+        .enumerate()
+    {
+        assert_close(
+            coefficients[joint],
+            expected,
+            1e-2,
+            &format!("k_d{}", joint + 1),
+        );
+    }
+    assert_eq!(coefficients[6], 0.0);
+}
+
+/// A grid leaves at most half a step; at 10 s that is below 5 % of every joint's impact.
+#[test]
+fn the_papers_search_comes_within_half_a_step_of_the_exact_one() {
+    for time in TIMES {
+        let (steps, exact) = (
+            case("5.2", time, Method::StepwisePerJoint),
+            case("5.2", time, Method::PerJoint),
+        );
+        for joint in 0..6 {
+            let (found, best) = (steps.coefficients[joint], exact.coefficients[joint]);
+            assert!(
+                (found - best).abs() <= 0.5e6 * (1.0 + 1e-9),
+                "joint {} at {time} s",
+                joint + 1
+            );
+            let left = steps.impact_after[joint] / steps.impact_before[joint];
+            let possible = 0.5e6 / best.abs() * (1.0 + 1e-6);
+            assert!(left <= possible.max(1e-9) && left <= 1.0);
+            if time == 10.0 {
+                assert!(left <= 0.05, "joint {}: {left}", joint + 1);
+            }
+        }
+    }
+}
+
+#[test]
+fn eq_20_keeps_the_force_and_leaves_what_the_prototype_left() {
+    for (time, expected) in TIMES.into_iter().zip([18.97, 9.97, 16.19]) {
+        for method in [Method::Projected, Method::StepwiseProjected] {
+            let case = case("5.2", time, method);
+            assert!(case.flight.max_force_error <= 1e-6);
+            let (_, after) = case.healthy_impact();
+            assert_close(after, expected, 1e-2, &format!("{method:?} at {time} s"));
+        }
+    }
+}
+
+#[test]
+fn optimal_is_the_physical_limit_and_never_worse_than_a_law() {
+    for (time, expected) in TIMES.into_iter().zip([17.70, 6.59, 14.98]) {
+        let case = case("5.2", time, Method::Optimal);
+        assert!(case.flight.max_force_error <= 1e-6);
+        assert_close(
+            case.healthy_impact().1,
+            expected,
+            1e-2,
+            &format!("at {time} s"),
+        );
+    }
+    for study in studies() {
+        let frontier = &study.tradeoff.as_ref().unwrap().frontier;
+        let (exact, optimal) = (study.case(Method::Projected), study.case(Method::Optimal));
+        assert!(optimal.healthy_impact().1 <= exact.healthy_impact().1 * (1.0 + 1e-9));
+        // It falls, and ends where there is nothing left, long before the force error of Eq. 16.
+        assert!(
+            frontier
+                .windows(2)
+                .all(|pair| pair[1].1 <= pair[0].1 + 1e-6 && pair[1].0 >= pair[0].0 - 1e-6)
+        );
+        let (force, impact) = *frontier.last().unwrap();
+        let per_joint = study.case(Method::PerJoint);
+        assert!(force < per_joint.force_error && impact < 1e-4);
+        assert!(impact <= per_joint.healthy_impact().1 + 1e-4);
+    }
+}
+
+#[test]
+fn rated_torques_bind_and_are_kept() {
+    for section in ["5.3", "5.4"] {
+        let mut bound = 0;
+        for time in TIMES {
+            for method in Method::ALL {
+                let case = case(section, time, method);
+                assert!(
+                    case.search.is_ok(),
+                    "{section} at {time} s, {method:?}: {:?}",
+                    case.search
+                );
+                let rated = case.rated_torque.as_ref().unwrap();
+                let flown = case.flight.max_torque.iter().zip(rated);
+                for (torque, rated) in flown.clone() {
+                    assert!(
+                        *torque <= rated * (1.0 + 1e-12),
+                        "{section} at {time} s, {method:?}"
+                    );
+                }
+                bound += flown
+                    .filter(|(torque, rated)| **torque >= *rated * (1.0 - 1e-6))
+                    .count();
+                // Motion and tool force alone leave room.
+                assert!(case.flight.status < Status::Overloaded);
+            }
+        }
+        assert!(bound >= 4, "{section}: {bound}");
+    }
+    // What binds costs suppression.
+    let (free, bound) = (
+        case("5.2", 10.0, Method::PerJoint),
+        case("5.3", 10.0, Method::PerJoint),
+    );
+    assert!(bound.healthy_impact().1 > 100.0 * free.healthy_impact().1);
+}
+
+#[test]
+fn the_papers_rated_torque_is_out_of_reach() {
+    let scenario = scenario(&[
+        ("cycle = 0.01", "cycle = 0.5"),
+        (
+            "rated_torque = [300.0, 300.0, 350.0, 410.0, 50.0, 50.0, 50.0]",
+            "rated_torque = 300.0",
+        ),
+    ]);
+    let laboratory = Laboratory::new(&Ssrms, &scenario).unwrap();
+    let study = laboratory.study(&scenario.experiments[1], 10.0).unwrap();
+    let case = study.case(Method::PerJoint);
+    assert!(
+        matches!(case.search, Err(SearchError::Empty { joint: 3, .. })),
+        "{:?}",
+        case.search
+    );
+    assert_eq!(case.flight.status, Status::Overloaded);
+    assert_eq!(case.coefficients, [0.0; 7]);
+}
+
+#[test]
+fn a_varying_force_does_not_change_the_impact_of_a_lock_in_no_time() {
+    for time in TIMES {
+        let (constant, varying) = (
+            case("5.2", time, Method::PerJoint),
+            case("5.4", time, Method::PerJoint),
+        );
+        for (a, b) in constant.impact_before.iter().zip(&varying.impact_before) {
+            assert!((a - b).abs() < 1e-9);
+        }
+        let force = varying.flight.series.force.last().unwrap();
+        assert!((force[0] - 160.0).abs() < 1e-9 && force[3] == 0.0);
+    }
+}
+
+#[test]
+fn series_show_the_lock_from_both_sides() {
+    for study in studies() {
+        for case in &study.cases {
+            let series = &case.flight.series;
+            let lock = series
+                .time
+                .iter()
+                .position(|time| *time == case.failure_time)
+                .unwrap();
+            assert_eq!(series.time[lock + 1], case.failure_time);
+            assert!(series.time.is_sorted());
+            let rows = [&series.planned, &series.torque];
+            assert!(
+                rows.iter()
+                    .all(|rows| rows.len() == series.time.len() && rows[0].len() == 7)
+            );
+            for joint in 0..7 {
+                let step = series.torque[lock + 1][joint] - series.torque[lock][joint];
+                assert!(
+                    (step.abs() - case.impact_after[joint]).abs() < 1e-7,
+                    "{:?}",
+                    case.method
+                );
+                let step = series.planned[lock + 1][joint] - series.planned[lock][joint];
+                assert!((step.abs() - case.impact_before[joint]).abs() < 1e-7);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_generic_path_finds_the_same() {
+    let mut scenario = scenario(&[
+        ("cycle = 0.01", "cycle = 0.5"),
+        ("times = [3.0, 10.0, 18.0]", "times = [10.0]"),
+    ]);
+    scenario.experiments.truncate(1);
+    let chain: SerialChain<7> = Ssrms::CHAIN;
+    let [generated, generic] = [
+        Laboratory::new(&Ssrms, &scenario).unwrap().run().unwrap(),
+        Laboratory::new(&chain, &scenario).unwrap().run().unwrap(),
+    ];
+    for (a, b) in generated.iter().zip(&generic) {
+        for (a, b) in a.cases.iter().zip(&b.cases) {
+            let pairs = a.impact_after.iter().zip(&b.impact_after);
+            // The generic gradient comes from differences.
+            let worst = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-4, "{:?}: {worst}", a.method);
+        }
+    }
+}
+
+#[test]
+fn another_arm_and_an_impossible_motion_are_refused() {
+    let paper_like = scenario(&[]);
+    let planar = ulna_generated::Planar2r;
+    let refusal = Laboratory::new(&planar, &paper_like).unwrap_err();
+    assert_eq!(
+        refusal.to_string(),
+        "the motion cannot be flown: the motion is for 7 joints, the arm has 2"
+    );
+    let fast = scenario(&[(
+        "blend = 4.455",
+        "blend = 4.455\nmax_velocity = [1, 1, 0.2, 1, 1, 1, 1]",
+    )]);
+    let refusal = Laboratory::new(&Ssrms, &fast).unwrap_err();
+    assert!(matches!(refusal, ExperimentError::Motion(_)));
+    assert!(
+        refusal.to_string().contains("joint 3 would need 0.283"),
+        "{refusal}"
+    );
+}
+
+#[test]
+fn the_simulated_lock_balances_and_tends_to_the_ideal_one() {
+    let scenario = scenario(&[]);
+    let laboratory = Laboratory::new(&Ssrms, &scenario).unwrap();
+    let truth = laboratory.truth(&scenario.experiments[0], 10.0).unwrap();
+    let mut last = f64::INFINITY;
+    for point in &truth.convergence {
+        assert!(
+            point.energy_error < 1e-8 && point.momentum_error < 1e-8,
+            "{point:?}"
+        );
+        assert!(point.relative_difference < last, "{point:?}");
+        last = point.relative_difference;
+    }
+    assert!(last < 1e-3, "{last}");
+    assert_eq!(truth.runs.len(), 4);
+    let without = &truth.runs[0];
+    assert_eq!(without.method, None);
+    for run in &truth.runs {
+        assert!(run.energy_error < 1e-8);
+        assert_eq!(run.time.len(), run.torque.len());
+        assert_eq!(run.time.len(), run.predicted_torque.len());
+    }
+    let before = &case("5.2", 10.0, Method::PerJoint).impact_before;
+    for (predicted, before) in without.predicted_step.iter().zip(before) {
+        assert!((predicted.abs() - before).abs() < 1e-9);
+    }
+    // The brake bears far more than the paper's impact torque.
+    assert!(without.peak_torque[1] > 10.0 * before[1]);
+}

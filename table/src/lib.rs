@@ -1,0 +1,16 @@
+//! A robot arm's table in, a validated [`Model`] out; or every error at once, each with its place and what to write instead.
+
+mod chain;
+pub mod diagnostics;
+mod model;
+mod table;
+#[doc(hidden)]
+pub mod toml_reader;
+
+pub use chain::JointCountError;
+pub use diagnostics::TableErrors;
+pub use model::Model;
+#[doc(hidden)]
+pub use model::RATED_TORQUE;
+#[doc(hidden)]
+pub use table::AngleUnit;

@@ -1,0 +1,112 @@
+//! The model of an arm: SI units, radians, one convention, validated. What every backend is built from.
+//!
+//! A chain is kept in modified (Craig) Denavit–Hartenberg form,
+//! `T_i = Rx(alpha) Tx(a) Rz(theta) Tz(d)` with the joint's axis along z of frame i.
+//! A table in standard form is rewritten into it (see [`Model`]), so that nothing after this stage knows two conventions.
+
+mod convention;
+mod light;
+mod name;
+mod validate;
+
+pub use validate::RATED_TORQUE;
+
+use std::path::Path;
+
+use sha2::{Digest, Sha256};
+use ulna::{Joint, Placement, TaskRows};
+
+use crate::diagnostics::{Diagnostics, Sink, TableErrors};
+use crate::table::ArmTable;
+use crate::toml_reader::read_file;
+
+/// A validated arm of any number of joints.
+///
+/// Nothing after this stage can fail on a user's input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// The arm's name, `snake_case`, a Rust identifier that is no keyword.
+    pub name: String,
+    /// Gravity, m/s², world axes.
+    pub gravity: [f64; 3],
+    /// The rows of J in w_D.
+    pub task: TaskRows,
+    /// `world_from_base`.
+    pub base: Placement,
+    /// `frame_N_from_tool`.
+    pub tool: Placement,
+    /// The joints, base first; at least one.
+    pub joints: Vec<Joint>,
+    /// SHA-256 of the table's text, hexadecimal.
+    pub table_hash: String,
+}
+
+impl Model {
+    /// The most bytes that a table may have; one of the most joints has a fifth of it.
+    const MAX_BYTES: u64 = 256 * 1024;
+
+    /// Reads the table at `path`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, at once.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, TableErrors> {
+        Self::lint(path).map(|(model, _)| model)
+    }
+
+    /// Reads the table `text`, which errors call `source_name`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text, at once.
+    pub fn parse(text: &str, source_name: &str) -> Result<Self, TableErrors> {
+        Self::lint_text(text, source_name).map(|(model, _)| model)
+    }
+
+    /// Reads the table at `path` in `folder`. Errors call it `path`, as the user wrote it, wherever `folder` is.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, at once.
+    pub fn load_in(folder: impl AsRef<Path>, path: impl AsRef<Path>) -> Result<Self, TableErrors> {
+        Self::lint_in(folder, path).map(|(model, _)| model)
+    }
+
+    /// [`Model::load_in`], together with warnings of what is allowed but rarely meant.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, at once.
+    pub fn lint_in(
+        folder: impl AsRef<Path>,
+        path: impl AsRef<Path>,
+    ) -> Result<(Self, Diagnostics), TableErrors> {
+        let text = read_file(folder.as_ref(), path.as_ref(), Self::MAX_BYTES)?;
+        Self::lint_text(&text, &path.as_ref().display().to_string())
+    }
+
+    /// [`Model::load`], together with warnings of what is allowed but rarely meant.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the file, at once.
+    pub fn lint(path: impl AsRef<Path>) -> Result<(Self, Diagnostics), TableErrors> {
+        Self::lint_in("", path)
+    }
+
+    fn lint_text(text: &str, source_name: &str) -> Result<(Self, Diagnostics), TableErrors> {
+        let sink = Sink::new(source_name, text);
+        let model = ArmTable::read(text, &sink).and_then(|table| table.into_model(&sink));
+        let found = sink.finish();
+        match model {
+            Some(model) if !found.has_errors() => Ok((model.hashed(text), found)),
+            _ => Err(found),
+        }
+    }
+
+    fn hashed(mut self, text: &str) -> Self {
+        let hash = Sha256::digest(text);
+        self.table_hash = hash.iter().map(|byte| format!("{byte:02x}")).collect();
+        self
+    }
+
+    /// The name of the type that stands for the arm in generated code: `planar_2r` becomes `Planar2r`.
+    pub fn type_name(&self) -> String {
+        name::type_name(&self.name)
+    }
+}
