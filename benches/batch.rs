@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 
 use ulna::ArmBatch;
 use ulna::Instructions;
-use ulna::nalgebra::{IsometryMatrix3, SMatrix, SVector};
+use ulna::internal::Quantity;
+use ulna::nalgebra::SVector;
 use ulna::proof::{State, states};
 
 /// States in a batch.
@@ -72,11 +73,15 @@ fn column<const N: usize>(
     all.iter().map(of).collect()
 }
 
-fn arm<A: ArmBatch<N>, const N: usize>(name: &str, arm: &A, all: &[State<N>]) {
-    let (vector, square) = (SVector::<f64, N>::zeros(), SMatrix::<f64, N, N>::zeros());
-    let jacobian = SMatrix::<f64, 6, N>::zeros();
-    macro_rules! methods {
-        ($($batch:ident $method:ident($($argument:ident),+) $zero:expr;)+) => {
+macro_rules! define_arm {
+    ([] $(
+        $(#[$doc:meta])*
+        $variant:ident = $method:ident($($argument:ident),+) -> $output:ty
+        { kernel $($kernel:tt)+ }
+        { batch $batch:ident from $width:literal }
+        $({ $($rest:tt)* })*
+    )+) => {
+        fn arm<A: ArmBatch<N>, const N: usize>(name: &str, arm: &A, all: &[State<N>]) {
             $({
                 let name = format!("{name}/{}", stringify!($method));
                 if is_wanted(&name) {
@@ -85,7 +90,7 @@ fn arm<A: ArmBatch<N>, const N: usize>(name: &str, arm: &A, all: &[State<N>]) {
                     for length in LENGTHS {
                         let all = &all[..length];
                         $(let $argument = column(all, |state| state.$argument);)+
-                        let mut out = vec![$zero; length];
+                        let mut out = vec![<$output>::zero(); length];
                         let batch = |out: &mut [_]| {
                             let written = arm.$batch($(black_box(&$argument)),+, black_box(out));
                             assert!(written.is_ok());
@@ -103,24 +108,11 @@ fn arm<A: ArmBatch<N>, const N: usize>(name: &str, arm: &A, all: &[State<N>]) {
                     println!("{name:<48}{nanoseconds:>8.0}{cells}");
                 }
             })+
-        };
-    }
-    methods! {
-        forward_kinematics_batch forward_kinematics(q) IsometryMatrix3::<f64>::identity();
-        geometric_jacobian_batch geometric_jacobian(q) jacobian;
-        jacobian_derivatives_batch jacobian_derivatives(q) [jacobian; N];
-        mass_matrix_batch mass_matrix(q) square;
-        mass_matrix_derivatives_batch mass_matrix_derivatives(q) [square; N];
-        mass_matrix_and_derivatives_batch mass_matrix_and_derivatives(q) (square, [square; N]);
-        dynamic_manipulability_batch dynamic_manipulability(q) 0.0;
-        dynamic_manipulability_gradient_batch dynamic_manipulability_gradient(q) (0.0, vector);
-        jacobian_and_gradient_batch jacobian_and_gradient(q) (jacobian, 0.0, vector);
-        inverse_dynamics_batch inverse_dynamics(q, qd, qdd) vector;
-        bias_force_batch bias_force(q, qd) vector;
-        gravity_torque_batch gravity_torque(q) vector;
-        forward_dynamics_batch forward_dynamics(q, qd, tau) vector;
-    }
+        }
+    };
 }
+
+ulna::methods! { [N] define_arm {} }
 
 fn every_arm() {
     macro_rules! each {

@@ -12,9 +12,12 @@ pub use nalgebra;
 pub mod arm;
 pub mod control;
 pub mod generic;
-pub mod kernels;
+#[doc(hidden)]
+pub mod internal;
+mod kernels;
 pub mod proof;
 
+pub use arm::methods::{Argument, Method};
 pub use arm::{Angle, Arm, Joint, JointKind, Link, Placement, TaskRow, TaskRows};
 pub use control::compensation::{Compensation, Controller, Cycle, Law, Projector, Status};
 pub use control::failure::{Failure, LockedJoints};

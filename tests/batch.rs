@@ -1,8 +1,9 @@
 //! Batches against the methods of `Arm`, to the bit, for any length.
 
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
+use ulna::internal::Quantity;
 use ulna::proof::{State, states};
-use ulna::{Arm, ArmBatch, LengthMismatch, Unrolled as _};
+use ulna::{Arm, ArmBatch, LengthMismatch, SerialChain, Unrolled as _};
 use ulna_generated::{Oblique6, Planar2r, Ssrms};
 use wide::{f32x8, f64x8};
 
@@ -16,168 +17,69 @@ fn column<const N: usize>(
     all.iter().map(of).collect()
 }
 
-/// Calls a batch method and its single counterpart, and compares all results.
-macro_rules! same {
-    ($arm:expr, $chain:expr, $n:literal, $batch:ident, $method:ident($($field:ident),+), $zero:expr) => {
-        for length in LENGTHS {
-            let all: Vec<State<$n>> = states(&$chain).take(length).collect();
-            let mut out = vec![$zero; length];
-            $arm.$batch($(&column(&all, |state| state.$field)),+, &mut out)
-                .expect("slices of one length");
-            for (state, result) in all.iter().zip(&out) {
-                assert_eq!(*result, $arm.$method($(&state.$field),+), "{} of {length}", stringify!($batch));
+macro_rules! define_check {
+    ([] $(
+        $(#[$doc:meta])*
+        $variant:ident = $method:ident($($argument:ident),+) -> $output:ty
+        { kernel $($kernel:tt)+ }
+        { batch $batch:ident from $width:literal }
+        $({ $($rest:tt)* })*
+    )+) => {
+        /// Calls every batch and its single counterpart, and compares all results.
+        fn every_method<const N: usize>(arm: &impl ArmBatch<N>, chain: &SerialChain<N>) {
+            for length in LENGTHS {
+                let all: Vec<State<N>> = states(chain).take(length).collect();
+                $({
+                    let mut out = vec![<$output>::zero(); length];
+                    arm.$batch($(&column(&all, |state| state.$argument)),+, &mut out)
+                        .expect("slices of one length");
+                    for (state, result) in all.iter().zip(&out) {
+                        let expected = arm.$method($(&state.$argument),+);
+                        assert_eq!(*result, expected, "{} of {length}", stringify!($batch));
+                    }
+                })+
             }
         }
     };
 }
 
-macro_rules! every_method {
-    ($arm:expr, $chain:expr, $n:literal) => {{
-        let (vector, square) = (SVector::<f64, $n>::zeros(), SMatrix::<f64, $n, $n>::zeros());
-        let jacobian = SMatrix::<f64, 6, $n>::zeros();
-        same!(
-            $arm,
-            $chain,
-            $n,
-            forward_kinematics_batch,
-            forward_kinematics(q),
-            IsometryMatrix3::identity()
-        );
-        same!(
-            $arm,
-            $chain,
-            $n,
-            geometric_jacobian_batch,
-            geometric_jacobian(q),
-            jacobian
-        );
-        same!(
-            $arm,
-            $chain,
-            $n,
-            jacobian_derivatives_batch,
-            jacobian_derivatives(q),
-            [jacobian; $n]
-        );
-        same!($arm, $chain, $n, mass_matrix_batch, mass_matrix(q), square);
-        same!(
-            $arm,
-            $chain,
-            $n,
-            mass_matrix_derivatives_batch,
-            mass_matrix_derivatives(q),
-            [square; $n]
-        );
-        same!(
-            $arm,
-            $chain,
-            $n,
-            dynamic_manipulability_batch,
-            dynamic_manipulability(q),
-            1.0
-        );
-        same!(
-            $arm,
-            $chain,
-            $n,
-            dynamic_manipulability_gradient_batch,
-            dynamic_manipulability_gradient(q),
-            (1.0, vector)
-        );
-        same!(
-            $arm,
-            $chain,
-            $n,
-            inverse_dynamics_batch,
-            inverse_dynamics(q, qd, qdd),
-            vector
-        );
-        same!(
-            $arm,
-            $chain,
-            $n,
-            bias_force_batch,
-            bias_force(q, qd),
-            vector
-        );
-        same!(
-            $arm,
-            $chain,
-            $n,
-            gravity_torque_batch,
-            gravity_torque(q),
-            vector
-        );
-        same!(
-            $arm,
-            $chain,
-            $n,
-            forward_dynamics_batch,
-            forward_dynamics(q, qd, tau),
-            vector
-        );
-        same!(
-            $arm,
-            $chain,
-            $n,
-            mass_matrix_and_derivatives_batch,
-            mass_matrix_and_derivatives(q),
-            (square, [square; $n])
-        );
-        same!(
-            $arm,
-            $chain,
-            $n,
-            jacobian_and_gradient_batch,
-            jacobian_and_gradient(q),
-            (jacobian, 1.0, vector)
-        );
-    }};
-}
+ulna::methods! { [N] define_check {} }
 
 #[test]
 fn every_method_of_a_generated_arm() {
-    every_method!(Planar2r, Planar2r::CHAIN, 2);
+    every_method(&Planar2r, &Planar2r::CHAIN);
 }
 
 #[test]
 fn every_method_of_the_generic_path() {
-    every_method!(Planar2r::CHAIN, Planar2r::CHAIN, 2);
+    every_method(&Planar2r::CHAIN, &Planar2r::CHAIN);
 }
 
 #[test]
 fn gradient_of_the_ssrms() {
-    let zero = (1.0, SVector::<f64, 7>::zeros());
-    same!(
-        Ssrms,
-        Ssrms::CHAIN,
-        7,
-        dynamic_manipulability_gradient_batch,
-        dynamic_manipulability_gradient(q),
-        zero
-    );
+    let q = column(&states(&Ssrms::CHAIN).take(11).collect::<Vec<_>>(), |s| s.q);
+    let mut out = vec![(1.0, SVector::zeros()); q.len()];
+    let written = Ssrms.dynamic_manipulability_gradient_batch(&q, &mut out);
+    assert_eq!(written, Ok(()));
+    for (q, result) in q.iter().zip(&out) {
+        assert_eq!(*result, Ssrms.dynamic_manipulability_gradient(q));
+    }
 }
 
 #[test]
 fn an_arm_with_a_prismatic_joint() {
-    let identity = IsometryMatrix3::identity();
-    same!(
-        Oblique6,
-        Oblique6::CHAIN,
-        6,
-        forward_kinematics_batch,
-        forward_kinematics(q),
-        identity
+    let q = column(
+        &states(&Oblique6::CHAIN).take(11).collect::<Vec<_>>(),
+        |s| s.q,
     );
-    let zero = SMatrix::<f64, 6, 6>::zeros();
-    same!(
-        Oblique6,
-        Oblique6::CHAIN,
-        6,
-        mass_matrix_batch,
-        mass_matrix(q),
-        zero
-    );
+    let mut poses = vec![IsometryMatrix3::identity(); q.len()];
+    let mut masses = vec![SMatrix::<f64, 6, 6>::zeros(); q.len()];
+    assert_eq!(Oblique6.forward_kinematics_batch(&q, &mut poses), Ok(()));
+    assert_eq!(Oblique6.mass_matrix_batch(&q, &mut masses), Ok(()));
+    for ((q, pose), mass) in q.iter().zip(&poses).zip(&masses) {
+        assert_eq!(*pose, Oblique6.forward_kinematics(q));
+        assert_eq!(*mass, Oblique6.mass_matrix(q));
+    }
 }
 
 /// A kernel on other scalars: lanes of `wide`, and single precision.

@@ -110,6 +110,33 @@ fn what_is_not_a_path_of_a_table_stops_the_macro() {
     insta::assert_snapshot!(stderr);
 }
 
+/// An arm's type may be called like what its code needs from elsewhere.
+#[test]
+fn no_name_of_an_arm_hides_what_its_code_needs() {
+    let user = Crate::of_user("names", "examples/macro");
+    let table = fs::read_to_string(root().join(TABLE)).unwrap();
+    let names = [
+        "s_matrix",
+        "s_vector",
+        "isometry_matrix3",
+        "unrolled",
+        "state",
+        "part",
+        "method",
+    ];
+    let mut main = String::new();
+    for name in names {
+        let path = format!("arms/{name}.toml");
+        user.write(&path, &table.replace("planar_2r", name));
+        main += &format!("ulna_macros::arm!(\"{path}\");\n");
+    }
+    main +=
+        "fn main() {\n    assert_eq!(ulna::Arm::task(&SMatrix), ulna::Arm::task(&Method));\n}\n";
+    user.write("src/main.rs", &main);
+    let build = user.build();
+    assert!(build.succeeded, "{}", build.stderr);
+}
+
 #[test]
 fn a_bad_table_stops_the_build_script_with_the_same_text() {
     let user = Crate::of_user("build_script_errors", "examples/build_script");

@@ -2,7 +2,7 @@
 
 use nalgebra::{SVector, vector};
 use ulna::{Arm, SerialChain};
-use ulna_codegen::interpret::{Exact, Interpreter};
+use ulna_codegen::{Exact, Interpreter};
 use ulna_table::Model;
 
 /// A joint of an arm: what stands under its `[[joint]]`, and its link's mass, centroid and inertia.
@@ -48,11 +48,10 @@ fn model(text: &str) -> Model {
 fn arms<const N: usize>(text: &str) -> (SerialChain<N>, Interpreter<N>, Exact<N>) {
     let model = model(text);
     let joints = "the table has as many joints as the test says";
-    (
-        SerialChain::try_from(&model).expect(joints),
-        Interpreter::new(&model).expect(joints),
-        Exact::new(&model).expect(joints),
-    )
+    let programs = Interpreter::new(&model).expect(joints);
+    let exact = programs.exact();
+    let chain = SerialChain::try_from(&model).expect(joints);
+    (chain, programs, exact)
 }
 
 fn near<const N: usize>(

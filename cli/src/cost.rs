@@ -60,7 +60,7 @@ fn json(model: &Model, generated: &Generated) -> Value {
     let quantities: Map<_, _> = generated
         .counts()
         .iter()
-        .map(|(method, count)| ((*method).to_owned(), counts(count)))
+        .map(|(method, count)| (method.name().to_owned(), counts(count)))
         .collect();
     json!({ "arm": model.name, "quantities": quantities })
 }
@@ -84,7 +84,7 @@ fn table(generated: &Generated) -> Table {
         let operations = counts.operations.iter().map(|(_, count)| count);
         let cells = operations.chain([&counts.total, &counts.sin_cos]);
         let cells = cells.map(ToString::to_string);
-        table.add_row([(*method).to_owned()].into_iter().chain(cells));
+        table.add_row([method.name().to_owned()].into_iter().chain(cells));
     }
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);

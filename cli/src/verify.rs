@@ -1,12 +1,12 @@
 //! `ulna verify`: the emitted program and the textbook against more digits, and against finite differences.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 use ulna::SerialChain;
-use ulna::proof::{self, Deviation, Report, differences};
-use ulna_codegen::interpret::{Exact, Interpreter};
+use ulna::proof::{self, Report, differences};
+use ulna_codegen::Interpreter;
 use ulna_table::JointCountError;
 use ulna_table::Model;
 
@@ -48,7 +48,9 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         out,
         "the emitted program against central differences of itself"
     )?;
-    lines(&differences, out)?;
+    for deviation in differences.deviations() {
+        writeln!(out, "{deviation}")?;
+    }
     let mut verdict = Verdict::Pass;
     let mut wrong = |what: &str| {
         console::error(&format!("`{}`: {what}", model.name));
@@ -60,17 +62,10 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     if !textbook.passes() {
         wrong("the emitted formulas and the generic path disagree");
     }
-    if !differences.iter().all(Deviation::passes) {
+    if !differences.passes() {
         wrong("the emitted derivatives are not those of the emitted quantities");
     }
     Ok(verdict)
-}
-
-fn lines(deviations: &[Deviation], out: &mut dyn Write) -> io::Result<()> {
-    for deviation in deviations {
-        writeln!(out, "{deviation}")?;
-    }
-    Ok(())
 }
 
 struct Verify<'m> {
@@ -81,7 +76,7 @@ struct Verify<'m> {
 struct Found {
     emitted: Report,
     textbook: Report,
-    differences: [Deviation; 3],
+    differences: Report,
 }
 
 impl ForChain for Verify<'_> {
@@ -89,7 +84,7 @@ impl ForChain for Verify<'_> {
 
     fn run<const N: usize>(self, chain: &SerialChain<N>) -> Self::Output {
         let emitted: Interpreter<N> = Interpreter::new(self.model)?;
-        let exact: Exact<N> = Exact::new(self.model)?;
+        let exact = emitted.exact();
         let states = || proof::states(chain).take(self.samples);
         Ok(Found {
             emitted: proof::compare_with(&emitted, &exact, chain, states()),

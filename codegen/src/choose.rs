@@ -1,15 +1,16 @@
 //! Among the ways to write an arm's formulas down: the cheapest that is exact enough.
 
+use ulna::Method;
 use ulna_table::Model;
 
 use crate::accuracy::{Conditioned, Yardstick};
 use crate::formulate::chain::Chain;
-use crate::formulate::{self, Choices, IN_ORDER, QUANTITIES};
+use crate::formulate::{Choices, IN_ORDER, task};
 use crate::graph::Graph;
 use crate::schedule::{Program, schedule};
-use crate::{Method, compile_quantity};
+use crate::{MethodProgram, compile_method};
 
-const GRADIENT: &str = "dynamic_manipulability_gradient";
+const GRADIENT: Method = Method::DynamicManipulabilityGradient;
 
 /// The largest relative error that a program may have to be chosen for its few operations.
 const EXACT: f64 = 1e-10;
@@ -27,7 +28,7 @@ pub(super) fn choose(model: &Model, yardstick: &Yardstick) -> Choices {
     let frames = 0..=Chain::new(&Graph::new(), model).groups.len();
     let worlds = frames.clone().map(|world| Choices { world, ..none });
     let worlds = [worlds.collect()].into_iter();
-    let world = cheapest_that_is_exact(model, "geometric_jacobian", worlds, yardstick);
+    let world = cheapest_that_is_exact(model, Method::GeometricJacobian, worlds, yardstick);
     let ways = WAYS.into_iter().map(|(articulated, passes)| {
         let in_frame = |task: usize| {
             let as_listed = Choices {
@@ -57,18 +58,20 @@ fn longest_first(model: &Model, choices: Choices, yardstick: &Yardstick) -> [usi
         return choices.order;
     }
     let graph = Graph::new();
-    let lengths = formulate::squared_lengths(&Chain::new(&graph, model), choices);
+    let lengths = task::squared_lengths(&Chain::new(&graph, model), choices);
     yardstick.longest_first(&schedule(&graph, &lengths))
 }
 
 /// How exact w_D and ∇w_D are.
 pub(super) fn conditioned(
     model: &Model,
-    methods: &[Method],
+    methods: &[MethodProgram],
     choices: Choices,
     yardstick: &Yardstick,
 ) -> Option<Conditioned> {
-    let gradient = methods.iter().find(|method| method.name == GRADIENT)?;
+    let gradient = methods
+        .iter()
+        .find(|compiled| compiled.method == GRADIENT)?;
     if choices.singular {
         return None;
     }
@@ -79,7 +82,7 @@ pub(super) fn conditioned(
         ..choices
     };
     let graph = Graph::new();
-    let outputs = formulate::sensitivity(&Chain::new(&graph, model), as_listed);
+    let outputs = task::sensitivity(&Chain::new(&graph, model), as_listed);
     let sensitivity = schedule(&graph, &outputs);
     yardstick.conditioned(model, &gradient.program, &sensitivity)
 }
@@ -88,18 +91,15 @@ pub(super) fn conditioned(
 /// of all of them, those of the most exact program, if none is.
 fn cheapest_that_is_exact(
     model: &Model,
-    method: &str,
+    method: Method,
     ways: impl Iterator<Item = Vec<Choices>>,
     yardstick: &Yardstick,
 ) -> Option<Choices> {
-    let quantity = QUANTITIES
-        .iter()
-        .find(|quantity| quantity.method == method)?;
     let mut most_exact: Option<(f64, Choices)> = None;
     for way in ways {
         let compiled = way
             .into_iter()
-            .map(|choices| (choices, compile_quantity(model, quantity, choices)));
+            .map(|choices| (choices, compile_method(model, method, choices)));
         let mut candidates: Vec<(Choices, Program)> = compiled.collect();
         // A stable sort: of programs of one length the first is kept.
         candidates.sort_by_key(|(_, program)| program.steps.len());

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use crate::graph::{Expr, Graph, Id, Input, Node};
 
 /// The nodes that `outputs` need, arguments first.
-pub fn reachable(graph: &Graph, outputs: impl IntoIterator<Item = Id>) -> Vec<Id> {
+pub(crate) fn reachable(graph: &Graph, outputs: impl IntoIterator<Item = Id>) -> Vec<Id> {
     let mut needed = vec![false; graph.len()];
     let mut open: Vec<Id> = outputs.into_iter().collect();
     let mut found = Vec::new();

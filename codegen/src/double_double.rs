@@ -13,7 +13,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use ulna::Real;
 
 use crate::sines::{HALF_PI, sin_cos_near_zero, turned};
-pub use crate::sines::{LARGEST_ANGLE, portable_sin_cos};
+pub(crate) use crate::sines::{LARGEST_ANGLE, portable_sin_cos};
 
 /// The sum of two doubles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

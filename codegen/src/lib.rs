@@ -4,51 +4,54 @@
 //!
 //! | stage | from | to |
 //! |---|---|---|
-//! | [`formulate`] | [`ulna_table::Model`] | named outputs on a [`graph`], differentiated there ([`differentiate`]) |
-//! | [`schedule`] | outputs on a graph | a straight-line [`Program`] |
-//! | [`accuracy`] | programs | their rounding errors, of which the choice of formulas depends |
-//! | [`emit`] | programs | Rust |
+//! | formulate | [`ulna_table::Model`] | named outputs on a graph, differentiated there |
+//! | schedule | outputs on a graph | a straight-line [`Program`] |
+//! | accuracy | programs | their rounding errors, on which the choice of formulas depends |
+//! | emit | programs | Rust |
 //!
 //! A build script calls [`compile_arms`]; the macro and the command line call [`generate`].
 
-pub mod accuracy;
-pub mod build;
+mod accuracy;
+mod build;
 mod choose;
-pub mod cost;
-pub mod differentiate;
-pub mod double_double;
-pub mod emit;
+mod cost;
+mod differentiate;
+mod double_double;
+mod emit;
 mod fold;
-pub mod formulate;
-pub mod graph;
-pub mod interpret;
-pub mod op;
-pub mod schedule;
+mod formulate;
+mod graph;
+#[doc(hidden)]
+pub mod internal;
+mod interpret;
+mod op;
+mod schedule;
 mod sines;
 
+use ulna::Method;
 use ulna_table::Model;
 
+pub use accuracy::Conditioned;
 pub use build::{Error, compile_arms, compile_folder};
 pub use cost::Counts;
+pub use double_double::DoubleDouble;
 pub use emit::Generated;
-pub use interpret::Interpreter;
-pub use schedule::Program;
+pub use graph::{AngleSum, Input};
+pub use interpret::{Exact, Interpreter};
+pub use op::Op;
+pub use schedule::{Operand, Output, Program, Size, Step};
 
-use accuracy::{Conditioned, Yardstick};
+use accuracy::Yardstick;
 use choose::{choose, conditioned};
+use formulate::Choices;
 use formulate::chain::Chain;
-use formulate::{Choices, QUANTITIES, Quantity};
 use graph::Graph;
 
 /// A method of [`ulna::Arm`] as a program.
 #[derive(Debug)]
-pub struct Method {
-    /// The method's name.
-    pub name: &'static str,
-    /// What it returns, in a sentence.
-    pub doc: &'static str,
-    /// Its arguments: some of `q`, `qd`, `qdd`, `tau`.
-    pub arguments: &'static [&'static str],
+pub struct MethodProgram {
+    /// Which one.
+    pub method: Method,
     /// What it computes.
     pub program: Program,
     /// The largest relative error to be expected of it: see [`accuracy`].
@@ -58,8 +61,8 @@ pub struct Method {
 /// An arm's methods as programs.
 #[derive(Debug)]
 pub struct Compiled {
-    /// Every method of [`ulna::Arm`] that needs arithmetic.
-    pub methods: Vec<Method>,
+    /// Every method, in the order of [`Method::ALL`].
+    pub methods: Vec<MethodProgram>,
     /// At how many states, random ones and near-singular ones, their errors were measured.
     pub states: [usize; 2],
     /// How exact w_D and ∇w_D are; `None` if they are 0 everywhere.
@@ -76,21 +79,19 @@ pub fn generate(model: &Model, source: &str) -> Generated {
     Generated::new(model, file_name.unwrap_or(source), compile(model))
 }
 
-/// Every method of [`ulna::Arm`] that needs arithmetic, as a program.
+/// Every method of [`ulna::Arm`] as a program.
 pub fn compile(model: &Model) -> Compiled {
     let yardstick = Yardstick::new(model);
     let choices = choose(model, &yardstick);
-    let method = |quantity: &Quantity| {
-        let program = compile_quantity(model, quantity, choices);
-        Method {
-            name: quantity.method,
-            doc: quantity.doc,
-            arguments: quantity.arguments,
+    let methods = Method::ALL.iter().map(|method| {
+        let program = compile_method(model, *method, choices);
+        MethodProgram {
+            method: *method,
             error: yardstick.error(&program),
             program,
         }
-    };
-    let methods: Vec<Method> = QUANTITIES.iter().map(method).collect();
+    });
+    let methods: Vec<MethodProgram> = methods.collect();
     Compiled {
         conditioned: conditioned(model, &methods, choices, &yardstick),
         methods,
@@ -111,8 +112,8 @@ fn warnings_of(yardstick: &Yardstick) -> Vec<String> {
     found.into_iter().collect()
 }
 
-fn compile_quantity(model: &Model, quantity: &Quantity, choices: Choices) -> Program {
+fn compile_method(model: &Model, method: Method, choices: Choices) -> Program {
     let graph = Graph::new();
     let chain = Chain::new(&graph, model);
-    schedule::schedule(&graph, &(quantity.formulate)(&chain, choices))
+    schedule::schedule(&graph, &formulate::formulate(method, &chain, choices))
 }

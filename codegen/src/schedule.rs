@@ -11,6 +11,19 @@ use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Id, Input, Node};
 use crate::op::Op;
 
+/// What the rounding errors of an output are relative to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// Its largest entry.
+    Largest,
+    /// That, or the largest entry of the output before it if that is larger: a gradient beside its function.
+    LargestOrBefore,
+    /// That, or the length of the chain: a position near the origin is as far off as the chain is long.
+    LargestOrLength,
+    /// Nothing: only its size counts.
+    Any,
+}
+
 /// Named results of a formulation, of some shape, in row-major order of the shape.
 #[derive(Debug)]
 pub struct Output<T> {
@@ -20,6 +33,25 @@ pub struct Output<T> {
     pub shape: Vec<usize>,
     /// The elements.
     pub elements: Vec<T>,
+    /// What their rounding errors are relative to.
+    pub size: Size,
+}
+
+impl<T> Output<T> {
+    /// Results whose errors are relative to the largest of them.
+    pub fn new(name: &'static str, shape: &[usize], elements: Vec<T>) -> Self {
+        Self {
+            name,
+            shape: shape.to_vec(),
+            elements,
+            size: Size::Largest,
+        }
+    }
+
+    /// Their errors being relative to `size`.
+    pub fn relative_to(self, size: Size) -> Self {
+        Self { size, ..self }
+    }
 }
 
 /// An argument of a step.
@@ -87,6 +119,7 @@ pub fn schedule(graph: &Graph, outputs: &[Output<Expr<'_>>]) -> Program {
             name: output.name,
             shape: output.shape.clone(),
             elements: output.elements.iter().map(|e| operands[&e.id()]).collect(),
+            size: output.size,
         })
         .collect();
     Program {

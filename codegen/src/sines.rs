@@ -3,7 +3,7 @@
 use ulna::Real;
 
 /// Up to here sines and cosines are right, rad: whole turns are taken off exactly.
-pub const LARGEST_ANGLE: f64 = 1_073_741_824.0;
+pub(crate) const LARGEST_ANGLE: f64 = 1_073_741_824.0;
 
 /// π/2 as the sum of four doubles.
 pub(crate) const HALF_PI: [f64; 4] = [
@@ -44,7 +44,7 @@ pub(crate) fn turned<R: Real>(quarters: f64, (sin, cos): (R, R)) -> (R, R) {
 }
 
 /// Sine and cosine in `f64`, alike on every machine, of an angle of a few turns.
-pub fn portable_sin_cos(angle: f64) -> (f64, f64) {
+pub(crate) fn portable_sin_cos(angle: f64) -> (f64, f64) {
     let quarters = (angle / HALF_PI[0]).round();
     let rest = angle - quarters * HALF_PI[0] - quarters * HALF_PI[1];
     turned(quarters, sin_cos_near_zero(rest))

@@ -2,29 +2,20 @@
 
 use std::path::Path;
 
-use ulna::JointKind;
-use ulna_codegen::Program;
-use ulna_codegen::accuracy::{Scalar, read};
-use ulna_codegen::double_double::DoubleDouble;
-use ulna_codegen::formulate::chain::Chain;
-use ulna_codegen::formulate::{Choices, QUANTITIES};
-use ulna_codegen::graph::Graph;
-use ulna_codegen::schedule::schedule;
+use ulna::{JointKind, Method};
+use ulna_codegen::internal::{Chain, Choices, Graph, Scalar, formulate, read, schedule};
+use ulna_codegen::{DoubleDouble, Program};
 use ulna_table::Model;
 
 fn gradient(model: &Model, articulated: bool) -> Program {
-    let name = "dynamic_manipulability_gradient";
-    let quantity = QUANTITIES.iter().find(|quantity| quantity.method == name);
     let choices = Choices {
         articulated,
         ..Choices::default()
     };
     let graph = Graph::new();
     let chain = Chain::new(&graph, model);
-    schedule(
-        &graph,
-        &(quantity.expect("a method").formulate)(&chain, choices),
-    )
+    let outputs = formulate(Method::DynamicManipulabilityGradient, &chain, choices);
+    schedule(&graph, &outputs)
 }
 
 fn run<R: Scalar>(program: &Program, q: &[f64]) -> Vec<f64> {

@@ -1,12 +1,8 @@
 //! Properties of graph, derivatives and schedule under random expressions.
 
 use proptest::prelude::*;
-use ulna_codegen::Program;
-use ulna_codegen::differentiate::reverse;
-use ulna_codegen::double_double::DoubleDouble;
-use ulna_codegen::graph::{AngleSum, Expr, Graph, Input};
-use ulna_codegen::op::Op;
-use ulna_codegen::schedule::{Operand, Output, schedule};
+use ulna_codegen::internal::{Expr, Graph, reverse, schedule};
+use ulna_codegen::{AngleSum, DoubleDouble, Input, Op, Operand, Output, Program};
 
 const JOINTS: usize = 3;
 
@@ -103,12 +99,7 @@ impl Tree {
 }
 
 fn program<'g>(graph: &'g Graph, elements: Vec<Expr<'g>>) -> Program {
-    let shape = vec![elements.len()];
-    let output = Output {
-        name: "values",
-        shape,
-        elements,
-    };
+    let output = Output::new("values", &[elements.len()], elements);
     schedule(graph, &[output])
 }
 

@@ -27,7 +27,7 @@ pub(crate) use orthogonal::ThinQr;
 /// All of it is plain data, so that generated code can carry its own chain as a constant. No method allocates.
 ///
 /// For finite q no method returns NaN: angles of any size enter by their sines and cosines only, offsets are held within
-/// ±[`PRISMATIC_LIMIT`](crate::arm::coordinates::PRISMATIC_LIMIT). w_D and its gradient are exactly 0 where the task's rows of J
+/// ±[`PRISMATIC_LIMIT`](crate::arm::PRISMATIC_LIMIT). w_D and its gradient are exactly 0 where the task's rows of J
 /// span no volume but rounding ([`crate::arm::singular`]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SerialChain<const N: usize> {

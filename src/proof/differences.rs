@@ -3,8 +3,8 @@
 use nalgebra::SVector;
 
 use super::scale::Scale;
-use super::{Deviation, State, relative, rounding, worse};
-use crate::{Arm, SerialChain};
+use super::{Report, State, relative, rounding, worse};
+use crate::{Arm, Method, SerialChain};
 
 /// Step, in rad or in lengths of the chain: the truncation of the difference and the rounding of what it is taken of are about alike.
 const STEP: f64 = 1e-5;
@@ -20,19 +20,16 @@ pub fn compare<const N: usize>(
     arm: &impl Arm<N>,
     chain: &SerialChain<N>,
     states: impl Iterator<Item = State<N>>,
-) -> [Deviation; 3] {
-    let mut deviations = [
-        "jacobian_derivatives",
-        "mass_matrix_derivatives",
-        "dynamic_manipulability_gradient",
-    ]
-    .map(Deviation::new);
+) -> Report {
+    let mut report = Report::new(&[
+        Method::JacobianDerivatives.name(),
+        Method::MassMatrixDerivatives.name(),
+        Method::DynamicManipulabilityGradient.name(),
+    ]);
     for State { q, .. } in states {
-        for (deviation, (error, tolerance)) in deviations.iter_mut().zip(errors(arm, chain, &q)) {
-            deviation.add(error, tolerance);
-        }
+        report.add(&errors(arm, chain, &q));
     }
-    deviations
+    report
 }
 
 fn errors<const N: usize>(

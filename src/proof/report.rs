@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::Method;
+
 /// How far a method of the candidate is from the reference's, at the state where it comes nearest to, or goes farthest beyond,
 /// what is allowed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,19 +45,51 @@ impl Deviation {
     }
 }
 
-/// The outcome of [`compare`](super::compare): a line for each method of [`Arm`](crate::Arm). Prints as a table.
+/// The most lines that a report has: every method, and what an arm says of itself.
+const LINES: usize = Method::ALL.len() + 2;
+
+/// The outcome of a comparison: a line for each method of [`Arm`](crate::Arm). Prints as a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
-    /// How many states were compared.
-    pub states: usize,
-    /// One for each method, in the trait's order.
-    pub deviations: [Deviation; 15],
+    states: usize,
+    lines: [Deviation; LINES],
+    used: usize,
 }
 
 impl Report {
+    pub(super) fn new(methods: &[&'static str]) -> Self {
+        let mut lines = [Deviation::new(""); LINES];
+        for (line, method) in lines.iter_mut().zip(methods) {
+            *line = Deviation::new(method);
+        }
+        Self {
+            states: 0,
+            lines,
+            used: methods.len().min(LINES),
+        }
+    }
+
+    /// Adds a state: an error and what is allowed for each line.
+    pub(super) fn add(&mut self, verdicts: &[(f64, f64)]) {
+        self.states += 1;
+        for (line, (error, tolerance)) in self.lines.iter_mut().zip(verdicts) {
+            line.add(*error, *tolerance);
+        }
+    }
+
+    /// How many states were compared.
+    pub fn states(&self) -> usize {
+        self.states
+    }
+
+    /// The lines, in the trait's order.
+    pub fn deviations(&self) -> &[Deviation] {
+        &self.lines[..self.used]
+    }
+
     /// Whether every method is within its tolerance, at one state at least.
     pub fn passes(&self) -> bool {
-        self.states > 0 && self.deviations.iter().all(Deviation::passes)
+        self.states > 0 && self.deviations().iter().all(Deviation::passes)
     }
 }
 
@@ -79,7 +113,7 @@ impl fmt::Display for Report {
             "{:34} {:>9}  {:>9}   ({states} states)",
             "method", "error", "allowed"
         )?;
-        for deviation in &self.deviations {
+        for deviation in self.deviations() {
             writeln!(f, "{deviation}")?;
         }
         Ok(())

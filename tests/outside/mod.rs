@@ -11,7 +11,8 @@ pub(crate) const CHECKED_IN: &str = "examples/checked_in/src/planar_2r.rs";
 
 /// The repository.
 pub(crate) fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
+    tests.parent().expect("the folder of the workspace")
 }
 
 /// A crate with its own `Cargo.lock`. All of them share one target folder, and with it their dependencies.

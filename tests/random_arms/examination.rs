@@ -2,8 +2,7 @@
 
 use ulna::SerialChain;
 use ulna::proof::{State, states};
-use ulna_codegen::interpret::Exact;
-use ulna_codegen::{Generated, Interpreter, generate};
+use ulna_codegen::{Exact, Generated, Interpreter, generate};
 use ulna_table::Model;
 
 use super::arms::Arm;
@@ -89,12 +88,12 @@ fn examine_model<const N: usize>(arm: &Arm, model: &Model, samples: usize) -> Ex
         match (
             Interpreter::<N>::new(model),
             SerialChain::<N>::try_from(model),
-            Exact::<N>::new(model),
         ) {
-            (Ok(programs), Ok(chain), Ok(exact)) => {
+            (Ok(programs), Ok(chain)) => {
+                let exact = programs.exact();
                 examination.run(arm, &programs, &chain, &exact, samples);
             }
-            (Err(error), ..) | (_, Err(error), _) | (.., Err(error)) => {
+            (Err(error), _) | (_, Err(error)) => {
                 examination.fail("another number of joints", error.to_string());
             }
         }

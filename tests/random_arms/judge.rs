@@ -4,8 +4,7 @@ use nalgebra::{DMatrix, SVector};
 use ulna::arm::singular::least_volume_squared;
 use ulna::proof::{State, compare_with, condition, differences};
 use ulna::{Arm as _, SerialChain, TaskRow};
-use ulna_codegen::Interpreter;
-use ulna_codegen::interpret::Exact;
+use ulna_codegen::{Exact, Interpreter};
 
 const ABOUT_W: [&str; 3] = [
     "dynamic_manipulability",
@@ -53,7 +52,7 @@ pub(crate) fn judge<const N: usize>(
     let of_textbook = compare_with(chain, exact, chain, [state]);
     let reports = [("", of_programs), ("textbook: ", of_textbook)];
     let judgements = reports.iter().flat_map(|(whose, report)| {
-        report.deviations.iter().map(move |deviation| Judgement {
+        report.deviations().iter().map(move |deviation| Judgement {
             method: format!("{whose}{}", deviation.method),
             error: deviation.error,
             allowed: deviation.tolerance,
@@ -61,11 +60,16 @@ pub(crate) fn judge<const N: usize>(
     });
     let mut judgements: Vec<_> = judgements.collect();
     let by_differences = differences::compare(programs, chain, [state].into_iter());
-    judgements.extend(by_differences.iter().map(|deviation| Judgement {
-        method: format!("differences: {}", deviation.method),
-        error: deviation.error,
-        allowed: deviation.tolerance,
-    }));
+    judgements.extend(
+        by_differences
+            .deviations()
+            .iter()
+            .map(|deviation| Judgement {
+                method: format!("differences: {}", deviation.method),
+                error: deviation.error,
+                allowed: deviation.tolerance,
+            }),
+    );
     judgements.extend(as_the_file_states(programs, chain, exact, &state));
     let w = [
         programs.dynamic_manipulability(&state.q),
@@ -102,7 +106,8 @@ fn as_the_file_states<const N: usize>(
     let (exact_w, exact_gradient) = exact.dynamic_manipulability_gradient(&state.q);
     let slopes = (gradient - exact_gradient).amax() / exact_gradient.amax().max(exact_w);
     let error = slopes.max((w - exact_w).abs() / exact_w);
-    let bound = programs.stated_factor()? * f64::EPSILON * condition(exact, chain, &state.q);
+    let bound =
+        programs.compiled().conditioned?.factor * f64::EPSILON * condition(exact, chain, &state.q);
     (exact_w > 0.0 && bound < 1e-2).then(|| Judgement {
         method: "what the file states of w_D".to_owned(),
         error,

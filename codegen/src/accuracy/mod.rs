@@ -6,15 +6,17 @@
 mod state;
 mod walk;
 
-use ulna::proof::random::SplitMix64;
+use ulna::internal::bounds::carried_inertia;
+use ulna::internal::random::SplitMix64;
 use ulna::{Real as _, TaskRow};
 use ulna_table::Model;
 
 use crate::double_double::DoubleDouble;
+use crate::formulate::Choices;
 use crate::formulate::chain::Chain;
-use crate::formulate::{Choices, relative_volume};
+use crate::formulate::task::relative_volume;
 use crate::graph::Graph;
-use crate::schedule::{Program, schedule};
+use crate::schedule::{Program, Size, schedule};
 
 pub use state::{Scalar, read};
 
@@ -26,11 +28,11 @@ const RANDOM: usize = 16;
 /// States near singular poses, as far as the arm has any.
 const NEAR_SINGULAR: usize = 8;
 /// How near: the volume that J's rows span, relative to the product of their lengths.
-pub const LEAST_VOLUME: f64 = 1e-4;
+pub(crate) const LEAST_VOLUME: f64 = 1e-4;
 /// A long program is not run on all states: about so many operations are enough.
 const OPERATIONS: usize = 100_000;
 /// What is measured times this is claimed: other states, fused multiply-adds, and sines that are 1.4 units off.
-pub const ALLOWANCE: f64 = 8.0;
+pub(crate) const ALLOWANCE: f64 = 8.0;
 
 /// How exact w_D and ∇w_D are: their relative error is at most `factor` times ε times the condition number of w_D.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +47,7 @@ pub struct Conditioned {
 
 /// The states at which an arm's programs are judged.
 #[derive(Debug)]
-pub struct Yardstick {
+pub(crate) struct Yardstick {
     /// Random ones first.
     states: Vec<State>,
     /// How many of them are near singular poses.
@@ -58,7 +60,7 @@ pub struct Yardstick {
 
 impl Yardstick {
     /// Chooses the states for the arm of `model`.
-    pub fn new(model: &Model) -> Self {
+    pub(crate) fn new(model: &Model) -> Self {
         let graph = Graph::new();
         let program = schedule(&graph, &relative_volume(&Chain::new(&graph, model)));
         let relative = |q: &[f64]| {
@@ -96,14 +98,14 @@ impl Yardstick {
     }
 
     /// How many states at random there are.
-    pub fn random(&self) -> usize {
+    pub(crate) fn random(&self) -> usize {
         self.states.len() - self.near_singular
     }
 
     /// The largest relative error of `program` in `f64` that is to be expected: the largest that is measured, with an allowance.
     ///
     /// An output's error is that of its worst entry, relative to its largest one; ∇w_D's also to w_D, beside which it stands.
-    pub fn error(&self, program: &Program) -> f64 {
+    pub(crate) fn error(&self, program: &Program) -> f64 {
         let errors = self
             .some_states(program)
             .map(|state| self.error_at(program, state));
@@ -111,7 +113,7 @@ impl Yardstick {
     }
 
     /// What is to be expected of `program`, which computes ∇w_D, in terms of the condition number that `sensitivity` computes.
-    pub fn conditioned(
+    pub(crate) fn conditioned(
         &self,
         model: &Model,
         program: &Program,
@@ -139,7 +141,7 @@ impl Yardstick {
     }
 
     /// The places of the task's rows, those first that are longest in H at the median of the random states.
-    pub fn longest_first(&self, squared_lengths: &Program) -> [usize; 6] {
+    pub(crate) fn longest_first(&self, squared_lengths: &Program) -> [usize; 6] {
         let random = self.states[..self.random()].iter();
         let lengths: Vec<Vec<f64>> = random.map(|state| state.in_f64(squared_lengths)).collect();
         let median = |place: usize| {
@@ -170,8 +172,7 @@ impl Yardstick {
         for output in &program.outputs {
             let range = start..start + output.elements.len();
             start = range.end;
-            if output.name == "volume" {
-                // Only its size counts.
+            if output.size == Size::Any {
                 continue;
             }
             let (mut difference, mut largest) = (0.0_f64, 0.0_f64);
@@ -180,10 +181,9 @@ impl Yardstick {
                 difference = difference.max(if apart.is_nan() { f64::INFINITY } else { apart });
                 largest = largest.max(exact.to_f64().abs());
             }
-            let size = match output.name {
-                "gradient" => largest.max(largest_beside),
-                // A position near the base's origin is still as far off as the chain is long.
-                "translation" => largest.max(self.length),
+            let size = match output.size {
+                Size::LargestOrBefore => largest.max(largest_beside),
+                Size::LargestOrLength => largest.max(self.length),
                 // What cancels to 0 is measured by 1, in SI units.
                 _ if largest == 0.0 => 1.0,
                 _ => largest,
@@ -208,7 +208,7 @@ fn condition(model: &Model, q: &[f64], sensitivity: &[f64]) -> f64 {
         weights.iter().map(|weight| weight.abs()).sum::<f64>() * size
     });
     let sizes: Vec<f64> = (0..joints)
-        .map(|i| ulna::arm::bounds::carried_inertia(&model.joints, i, |joint| q[joint]).sqrt())
+        .map(|i| carried_inertia(&model.joints, i, |joint| q[joint]).sqrt())
         .collect();
     let of_masses = by_mass.chunks(joints).zip(&sizes).map(|(row, size)| {
         let row = row.iter().zip(&sizes);
@@ -229,7 +229,7 @@ fn least_volume_squared(model: &Model, q: &[f64]) -> f64 {
 }
 
 /// An error to one digit, not less than it is.
-pub fn rounded_up(error: f64) -> String {
+pub(crate) fn rounded_up(error: f64) -> String {
     if error == 0.0 || !error.is_finite() {
         return error.to_string();
     }

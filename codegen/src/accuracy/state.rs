@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use nalgebra::SVector;
-use ulna::arm::coordinates::coordinates;
-use ulna::proof::random::SplitMix64;
+use ulna::internal::coordinates;
+use ulna::internal::random::SplitMix64;
 use ulna::{JointKind, Real, SerialChain};
 use ulna_table::Model;
 

@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 use super::expression::Writer;
 use super::literal::literal;
 use super::parts;
-use crate::Method;
+use crate::MethodProgram;
 use crate::accuracy::rounded_up;
 use crate::cost::Counts;
 use crate::graph::AngleSum;
@@ -15,17 +15,16 @@ use crate::graph::AngleSum;
 /// compiler recurses over scopes; one declaration for many names keeps the nesting shallow however long the program.
 pub(super) const NAMES_PER_SCOPE: usize = 128;
 
-/// The name of a method's kernel.
-pub(super) fn kernel_name(method: &str) -> Ident {
-    format_ident!("{method}_kernel")
-}
-
 /// The function of `Unrolled` that runs a method's program on any `R: Real`.
-pub(super) fn kernel(method: &Method, joints: usize) -> TokenStream {
-    let (name, program) = (kernel_name(method.name), &method.program);
+pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
+    let MethodProgram {
+        method, program, ..
+    } = compiled;
+    let name = format_ident!("{}", method.kernel());
     let writer = Writer::new(program);
     let length = Literal::usize_unsuffixed(joints);
-    let arguments = method.arguments.iter().map(|argument| {
+    let arguments = method.arguments().iter().map(|argument| {
+        let argument = argument.name();
         let used = if writer.uses_argument(argument) {
             ""
         } else {
@@ -44,11 +43,11 @@ pub(super) fn kernel(method: &Method, joints: usize) -> TokenStream {
         ([result], [value]) => (quote!(#result), quote!(#value)),
         (types, values) => (quote!((#(#types),*)), quote!((#(#values),*))),
     };
-    let doc = documentation(method).map(|line| quote!(#[doc = #line]));
+    let doc = documentation(compiled).map(|line| quote!(#[doc = #line]));
     let angles = angles(&writer, &program.angles);
     let named = writer.named();
     let (body, value) = if parts::is_long(named.len()) {
-        (parts::parts(&writer, method, &named, joints), quote!())
+        (parts::parts(&writer, compiled, &named, joints), quote!())
     } else {
         (statements(&named), value)
     };
@@ -63,16 +62,16 @@ pub(super) fn kernel(method: &Method, joints: usize) -> TokenStream {
     }
 }
 
-fn documentation(method: &Method) -> [String; 4] {
-    let counts = Counts::of(&method.program);
+fn documentation(compiled: &MethodProgram) -> [String; 4] {
+    let counts = Counts::of(&compiled.program);
     let (operations, angles) = (counts.total, counts.sin_cos);
     [
-        format!(" {}", method.doc),
+        format!(" {}", compiled.method.returns()),
         String::new(),
         format!(" Operations: {operations}, and sine and cosine of {angles} angles."),
         format!(
             " Rounding error of the worst entry, relative to the largest: {}.",
-            rounded_up(method.error)
+            rounded_up(compiled.error)
         ),
     ]
 }

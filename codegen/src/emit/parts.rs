@@ -10,7 +10,7 @@ use quote::{format_ident, quote};
 
 use super::expression::Writer;
 use super::kernel::{NAMES_PER_SCOPE, array_of};
-use crate::Method;
+use crate::MethodProgram;
 use crate::double_double::DoubleDouble;
 use crate::schedule::{Operand, Output};
 
@@ -47,16 +47,15 @@ struct Element {
 /// The body of a kernel after its sines and cosines: the state, the parts, the result.
 pub(super) fn parts(
     writer: &Writer<'_>,
-    method: &Method,
+    compiled: &MethodProgram,
     named: &[(Ident, TokenStream)],
     joints: usize,
 ) -> TokenStream {
-    let outputs = &method.program.outputs;
+    let outputs = &compiled.program.outputs;
     let elements = elements_by_last_name(writer, outputs, named);
-    let mut arguments: Vec<Ident> = method
-        .arguments
-        .iter()
-        .map(|name| format_ident!("{name}"))
+    let arguments = compiled.method.arguments().iter();
+    let mut arguments: Vec<Ident> = arguments
+        .map(|argument| format_ident!("{}", argument.name()))
         .collect();
     let (parts, slots) = divide(writer, &arguments, named, &elements, LENGTH);
     arguments.retain(|argument| parts.iter().any(|part| part.arguments.contains(argument)));
@@ -75,7 +74,7 @@ pub(super) fn parts(
         .map(|i| format_ident!("Part{i}"))
         .collect();
     let bodies = parts.iter().map(|part| body(part, &slots));
-    let angles = (0..method.program.angles.len()).flat_map(|angle| {
+    let angles = (0..compiled.program.angles.len()).flat_map(|angle| {
         let (sine, cosine) = writer.angle(angle);
         [sine, cosine].into_iter().flatten()
     });
@@ -88,7 +87,7 @@ pub(super) fn parts(
         }
         #(
             struct #kinds;
-            impl<R: ::ulna::Real> ::ulna::kernels::real::Part<State<R>> for #kinds {
+            impl<R: ::ulna::Real> ::ulna::internal::Part<State<R>> for #kinds {
                 #[inline(always)]
                 fn run(state: &mut State<R>) {
                     #bodies
@@ -222,6 +221,7 @@ fn body(part: &Part, slots: &HashMap<Ident, usize>) -> TokenStream {
 
 #[cfg(test)]
 mod tests {
+    use ulna::Argument;
     use ulna_table::Model;
 
     use super::*;
@@ -234,7 +234,7 @@ mod tests {
             let writer = Writer::new(&method.program);
             let (named, steps) = (writer.named(), writer.named_steps());
             let elements = elements_by_last_name(&writer, &method.program.outputs, &named);
-            let arguments = ["q", "qd", "qdd", "tau"].map(|name| format_ident!("{name}"));
+            let arguments = Argument::ALL.map(|argument| format_ident!("{}", argument.name()));
             let (parts, slots) = divide(&writer, &arguments, &named, &elements, 20);
             assert!(parts.len() >= named.len() / 20);
 
@@ -245,7 +245,7 @@ mod tests {
                 assert!(
                     part.shared.iter().all(|name| shared.contains(name)),
                     "{}",
-                    method.name
+                    method.method
                 );
                 let mut known: HashSet<&Ident> =
                     part.shared.iter().chain(&part.arguments).collect();
@@ -255,7 +255,7 @@ mod tests {
                     assert!(
                         names.iter().all(|name| known.contains(name)),
                         "{}: {name}",
-                        method.name
+                        method.method
                     );
                     known.insert(name);
                     let mut names = Vec::new();
@@ -266,7 +266,7 @@ mod tests {
                     assert!(
                         names.iter().all(|name| known.contains(name)),
                         "{}: {name}",
-                        method.name
+                        method.method
                     );
                     position += 1;
                 }
@@ -286,7 +286,7 @@ mod tests {
                 .clone()
                 .filter(|o| **o == Operand::Constant(DoubleDouble::default()))
                 .count();
-            assert_eq!(written, operands.count() - zeros, "{}", method.name);
+            assert_eq!(written, operands.count() - zeros, "{}", method.method);
         }
     }
 }

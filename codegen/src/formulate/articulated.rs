@@ -160,7 +160,7 @@ fn transposed<'g>(columns: [Vec3<'g>; 3]) -> [Vec3<'g>; 3] {
 }
 
 /// The factors of M, from the tip to the base.
-pub fn factors<'g>(chain: &Chain<'g>) -> Factors<'g> {
+pub(crate) fn factors<'g>(chain: &Chain<'g>) -> Factors<'g> {
     let joints = chain.joint_count();
     let zero = chain.graph.constant(0.0);
     let one = chain.graph.constant(1.0);

@@ -23,7 +23,7 @@ pub struct Body<'g> {
 /// What a revolute joint's turning cannot change (mass, first moment along the axis, and as much of the inertia
 /// as is round about it) is counted with the link before; likewise the whole inertia tensor behind a prismatic joint.
 /// M and τ stay the same, and many constants become zero. What reaches the base is dropped.
-pub fn base_parameters<'g>(graph: &'g Graph, model: &Model) -> Vec<Body<'g>> {
+pub(crate) fn base_parameters<'g>(graph: &'g Graph, model: &Model) -> Vec<Body<'g>> {
     let links = model.joints.iter().map(|joint| &joint.link);
     let mut bodies: Vec<Body<'g>> = links.map(|link| Body::of_link(graph, link)).collect();
     for (i, joint) in model.joints.iter().enumerate().rev() {

@@ -5,7 +5,7 @@
 use crate::graph::Expr;
 
 /// The factors of a symmetric positive definite matrix.
-pub struct Factors<'g> {
+pub(crate) struct Factors<'g> {
     /// U above the diagonal, by rows.
     pub(super) upper: Vec<Vec<Expr<'g>>>,
     /// The pivots.
@@ -15,7 +15,7 @@ pub struct Factors<'g> {
 }
 
 /// Factors the matrix.
-pub fn factor<'g>(matrix: &[Vec<Expr<'g>>]) -> Factors<'g> {
+pub(crate) fn factor<'g>(matrix: &[Vec<Expr<'g>>]) -> Factors<'g> {
     let n = matrix.len();
     let mut rest: Vec<Vec<Expr<'g>>> = matrix.to_vec();
     let mut upper = rest.clone();
@@ -47,12 +47,12 @@ pub fn factor<'g>(matrix: &[Vec<Expr<'g>>]) -> Factors<'g> {
 
 impl<'g> Factors<'g> {
     /// x of (U D Uᵀ) x = b.
-    pub fn solve(&self, b: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    pub(crate) fn solve(&self, b: &[Expr<'g>]) -> Vec<Expr<'g>> {
         self.solve_in_steps(b).1
     }
 
     /// Uᵀ x, and x, of (U D Uᵀ) x = b.
-    pub fn solve_in_steps(&self, b: &[Expr<'g>]) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
+    pub(crate) fn solve_in_steps(&self, b: &[Expr<'g>]) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
         let n = b.len();
         let mut x = b.to_vec();
         for k in (0..n).rev() {

@@ -46,7 +46,11 @@ fn times<'g>(rows: &[Vec3<'g>; 3], v: Vec3<'g>) -> Vec3<'g> {
 }
 
 /// τ for velocities `qd` and accelerations `qdd`; zeros fold, so that gravity alone or bias alone costs what it needs.
-pub fn inverse_dynamics<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Expr<'g>> {
+pub(crate) fn inverse_dynamics<'g>(
+    chain: &Chain<'g>,
+    qd: &[Expr<'g>],
+    qdd: &[Expr<'g>],
+) -> Vec<Expr<'g>> {
     let motions = outward(chain, qd, qdd);
     let zero = chain.zero();
     let (mut force, mut moment) = (zero, zero);

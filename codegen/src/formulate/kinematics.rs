@@ -138,7 +138,7 @@ pub fn jacobian_in_world<'g>(chain: &Chain<'g>, switch: usize) -> Vec<Twist<'g>>
 }
 
 /// `world_from_tool`: the rotation's columns, and the translation.
-pub fn pose<'g>(chain: &Chain<'g>) -> (Axes<'g>, Vec3<'g>) {
+pub(crate) fn pose<'g>(chain: &Chain<'g>) -> (Axes<'g>, Vec3<'g>) {
     let (_, to_tool) = vectors_to_tool(chain);
     let axes = world_axes(chain, chain.groups.len());
     let tool = |j| {
@@ -155,7 +155,10 @@ pub fn pose<'g>(chain: &Chain<'g>) -> (Axes<'g>, Vec3<'g>) {
 /// ∂J/∂q_i for each i, by columns, from the columns of J in the same axes:
 /// joint i turns whatever is beyond it, so ∂v_j/∂q_i = ω_min(i,j) × v_max(i,j), and ∂ω_j/∂q_i = ω_i × ω_j for i < j, else 0
 /// (Siciliano et al., Robotics, section 3.1.3; the second column of a pair sees only its own part of the tool's motion).
-pub fn jacobian_derivatives<'g>(chain: &Chain<'g>, columns: &[Twist<'g>]) -> Vec<Vec<Twist<'g>>> {
+pub(crate) fn jacobian_derivatives<'g>(
+    chain: &Chain<'g>,
+    columns: &[Twist<'g>],
+) -> Vec<Vec<Twist<'g>>> {
     let derivative = |i: usize, j: usize| {
         let (near, far) = (columns[i.min(j)], columns[i.max(j)]);
         Twist {

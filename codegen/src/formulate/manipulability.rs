@@ -26,7 +26,7 @@ use crate::graph::Expr;
 type Row<'g> = Vec<Expr<'g>>;
 
 /// w_D, its gradient, and what tells whether the task is singular.
-pub struct Manipulability<'g> {
+pub(crate) struct Manipulability<'g> {
     /// w_D.
     pub value: Expr<'g>,
     /// ∇w_D.
@@ -37,7 +37,7 @@ pub struct Manipulability<'g> {
 
 impl<'g> Manipulability<'g> {
     /// What a task has that is singular in every configuration.
-    pub fn zero(zero: Expr<'g>, joints: usize) -> Self {
+    pub(crate) fn zero(zero: Expr<'g>, joints: usize) -> Self {
         Self {
             value: zero,
             gradient: vec![zero; joints],
@@ -47,12 +47,12 @@ impl<'g> Manipulability<'g> {
 }
 
 /// det(JJᵀ), the squared volume that J's rows span.
-pub fn volume_squared<'g>(jacobian: &[Row<'g>]) -> Expr<'g> {
+pub(crate) fn volume_squared<'g>(jacobian: &[Row<'g>]) -> Expr<'g> {
     product(&orthogonalise(jacobian, 1).pivots)
 }
 
 /// How w_D depends on J and M: δ ln w_D = ⟨W, δJ⟩ − ⟨HᵀW, δM⟩.
-pub struct Sensitivity<'g> {
+pub(crate) struct Sensitivity<'g> {
     /// w_D.
     value: Expr<'g>,
     /// W, by rows: as many as J has.
@@ -62,7 +62,11 @@ pub struct Sensitivity<'g> {
 }
 
 /// w_D's dependence on J, by rows, and M.
-pub fn sensitivity<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>], passes: usize) -> Sensitivity<'g> {
+pub(crate) fn sensitivity<'g>(
+    jacobian: &[Row<'g>],
+    mass: &[Row<'g>],
+    passes: usize,
+) -> Sensitivity<'g> {
     let mass_factors = factor(mass);
     let h: Vec<Row<'g>> = jacobian.iter().map(|row| mass_factors.solve(row)).collect();
     let basis = orthogonalise(&h, passes);
@@ -85,7 +89,7 @@ pub fn sensitivity<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>], passes: usize) ->
 
 /// w_D and ∇w_D of the task whose Jacobian is `jacobian` (by rows), with the mass matrix `mass`;
 /// H's rows are made orthogonal `passes` times.
-pub fn manipulability<'g>(
+pub(crate) fn manipulability<'g>(
     jacobian: &[Row<'g>],
     mass: &[Row<'g>],
     passes: usize,
@@ -109,7 +113,7 @@ pub fn manipulability<'g>(
 ///
 /// With M's change written as that of its factors, ⟨HᵀW, dM⟩ is Σ_k (HU)_k·(WU)_k dD_k + Σ_ik D_k (H_i·(WU)_k + W_i·(HU)_k) dU_ik,
 /// where X_k is the k-th column of X: no difference of large numbers where a pivot is small.
-pub fn manipulability_by_factors<'g>(
+pub(crate) fn manipulability_by_factors<'g>(
     jacobian: &[Row<'g>],
     mass_factors: &Factors<'g>,
     passes: usize,
@@ -157,7 +161,7 @@ fn by_adjoint<'g>(
 }
 
 /// The squared lengths of H's rows.
-pub fn squared_lengths<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Vec<Expr<'g>> {
+pub(crate) fn squared_lengths<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Vec<Expr<'g>> {
     let mass_factors = factor(mass);
     let h = jacobian.iter().map(|row| mass_factors.solve(row));
     h.map(|row| dot(&row, &row)).collect()

@@ -11,7 +11,7 @@ use crate::graph::Expr;
 /// Momentum of the links beyond a joint when that joint alone moves at unit speed;
 /// the angular part about the origin at hand.
 #[derive(Clone, Copy, Debug)]
-pub struct Momentum<'g> {
+pub(crate) struct Momentum<'g> {
     /// Linear part.
     pub linear: Vec3<'g>,
     /// Angular part.
@@ -20,7 +20,7 @@ pub struct Momentum<'g> {
 
 /// What the inward sweep knows at a joint: about the joint's origin, in its group's axes.
 #[derive(Clone, Debug)]
-pub struct Station<'g> {
+pub(crate) struct Station<'g> {
     /// All links beyond the joint as one body.
     pub composite: Body<'g>,
     /// Momenta of this joint and of all beyond it, this one first.
@@ -28,7 +28,7 @@ pub struct Station<'g> {
 }
 
 /// The inward sweep: a station for each joint, base first.
-pub fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
+pub(crate) fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
     let mut stations: Vec<Station<'g>> = Vec::new();
     let mut beyond: Option<(Body<'g>, Vec<Momentum<'g>>)> = None;
     for group in chain.groups.iter().rev() {

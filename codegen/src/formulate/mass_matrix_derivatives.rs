@@ -21,7 +21,7 @@ use super::vector::{Sym3, Vec3};
 use crate::graph::Expr;
 
 /// ∂M/∂q_i for each i, by rows.
-pub fn mass_matrix_derivatives<'g>(chain: &Chain<'g>) -> Vec<Vec<Vec<Expr<'g>>>> {
+pub(crate) fn mass_matrix_derivatives<'g>(chain: &Chain<'g>) -> Vec<Vec<Vec<Expr<'g>>>> {
     let n = chain.joint_count();
     let zero = chain.graph.constant(0.0);
     let mut derivatives = vec![vec![vec![zero; n]; n]; n];

@@ -25,7 +25,7 @@ pub struct Turn<'g> {
 }
 
 /// The whole number of quarter turns nearest to the angle, and what is left, rad; exactly 0 where [`Angle`] says so.
-pub fn quarter_turns(angle: Angle) -> (i64, DoubleDouble) {
+pub(crate) fn quarter_turns(angle: Angle) -> (i64, DoubleDouble) {
     let (quarters, rest) = angle.quarter_turns();
     let turned = DoubleDouble::HALF_PI * DoubleDouble::of(quarters as f64);
     let rest = if rest == 0.0 {

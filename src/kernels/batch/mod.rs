@@ -6,27 +6,28 @@
 //! of the lanes, or else one by one, and so is a batch of fewer states than the narrowest lanes.
 
 mod lengths;
-mod slots;
+mod returned;
 
 use core::ops::Range;
 
-use nalgebra::{IsometryMatrix3, SMatrix, SVector};
+use nalgebra::SVector;
 
 use crate::arm::coordinates::{are_plain, coordinates};
+use crate::arm::quantity::Quantity;
 use crate::kernels::simd::{self, BLOCK, BatchCall, Lanes, MAX_WIDTH};
 use crate::{Arm, SerialChain, Unrolled};
 
 pub use lengths::LengthMismatch;
-use slots::{Numbers, Slots};
+use returned::Returned;
 
 /// Gives each lane's result its numbers of a part.
 #[inline(always)]
-fn scatter<R: Lanes, T: Slots>(numbers: &[R], part: usize, out: &mut [T]) {
+fn scatter<R: Lanes, T: Quantity>(numbers: &[R], part: usize, out: &mut [T]) {
     let (blocks, rest) = numbers.as_chunks::<BLOCK>();
     for (index, block) in blocks.iter().enumerate() {
         let rows = R::transpose(block);
         for (result, row) in out.iter_mut().zip(&rows) {
-            result.part(part)[index * BLOCK..][..BLOCK].copy_from_slice(row);
+            result.part_mut(part)[index * BLOCK..][..BLOCK].copy_from_slice(row);
         }
     }
     if let Some(first) = rest.first() {
@@ -34,7 +35,7 @@ fn scatter<R: Lanes, T: Slots>(numbers: &[R], part: usize, out: &mut [T]) {
         block[..rest.len()].copy_from_slice(rest);
         let rows = R::transpose(&block);
         for (result, row) in out.iter_mut().zip(&rows) {
-            result.part(part)[blocks.len() * BLOCK..].copy_from_slice(&row[..rest.len()]);
+            result.part_mut(part)[blocks.len() * BLOCK..].copy_from_slice(&row[..rest.len()]);
         }
     }
 }
@@ -70,11 +71,12 @@ fn gather_coordinates<A: Unrolled<N>, R: Lanes, const N: usize>(q: &[SVector<f64
     gather(&safe[..q.len()])
 }
 
-/// Sets right what the singular ones among the lanes have.
+/// Makes the parts from `zero` on 0 of those among the lanes that are singular.
 #[inline(always)]
-fn settle<A: Unrolled<N>, R: Lanes, T: Slots, const N: usize>(
+fn settle<A: Unrolled<N>, R: Lanes, T: Quantity, const N: usize>(
     q: &[R; N],
     volume_squared: R,
+    zero: usize,
     out: &mut [T],
 ) {
     let mut apart = [[0.0; N]; MAX_WIDTH];
@@ -85,36 +87,43 @@ fn settle<A: Unrolled<N>, R: Lanes, T: Slots, const N: usize>(
     }
     for ((result, q), volume) in out.iter_mut().zip(&apart).zip(volume_squared.store()) {
         if A::CHAIN.is_singular(q, volume) {
-            result.settle();
+            for part in zero..T::PARTS {
+                result.part_mut(part).fill(0.0);
+            }
         }
     }
 }
 
-/// Every method: its name in a batch, its own, the first argument `q` and the others, the result, the kernel, from registers
-/// of how many doubles on lanes are quicker, and what of the kernel's returns are the result's parts and, of w_D, the volume.
-macro_rules! methods {
-    ($($batch:ident $method:ident(q $(, $other:ident)*) -> $output:ty = $kernel:ident from $width:literal |$result:pat_param| ($($index:tt $part:ident),+) $(, $volume:ident)?;)+) => {
+macro_rules! define_batches {
+    ([] $(
+        $(#[$doc:meta])*
+        $variant:ident = $method:ident($q:ident $(, $other:ident)*) -> $output:ty
+        { kernel $returns:literal $kernel:ident -> $returned:ty $(, zero from $zero:literal)? }
+        { batch $batch:ident from $width:literal }
+        $({ $($rest:tt)* })*
+    )+) => {
         /// An arm that computes many states at once.
         ///
         /// A batch may have any length, but all its slices have the same. Results are those of the methods of [`Arm`] to the bit.
+        /// To share a batch among threads, split the slices, at multiples of 8 states: `rayon`'s `par_chunks` does it.
         pub trait ArmBatch<const N: usize>: Arm<N> {
             $(
                 #[doc = concat!("[`Arm::", stringify!($method), "`] for each state.")]
                 ///
                 /// # Errors
                 /// A slice that is not as long as `q`; nothing is written then.
-                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch>;
+                fn $batch(&self, $q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch>;
             )+
         }
 
         /// One by one.
         impl<const N: usize> ArmBatch<N> for SerialChain<N> {
             $(
-                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
-                    $(lengths::check(q.len(), stringify!($other), $other.len())?;)*
-                    lengths::check(q.len(), "out", out.len())?;
+                fn $batch(&self, $q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
+                    $(lengths::check($q.len(), stringify!($other), $other.len())?;)*
+                    lengths::check($q.len(), "out", out.len())?;
                     for (i, out) in out.iter_mut().enumerate() {
-                        *out = self.$method(&q[i] $(, &$other[i])*);
+                        *out = self.$method(&$q[i] $(, &$other[i])*);
                     }
                     Ok(())
                 }
@@ -124,10 +133,10 @@ macro_rules! methods {
         /// In lanes where they are worth it.
         impl<A: Unrolled<N> + Arm<N>, const N: usize> ArmBatch<N> for A {
             $(
-                fn $batch(&self, q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
+                fn $batch(&self, $q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
                     struct Run<'a, A, const N: usize> {
                         arm: &'a A,
-                        q: &'a [SVector<f64, N>],
+                        $q: &'a [SVector<f64, N>],
                         $($other: &'a [SVector<f64, N>],)*
                         out: &'a mut [$output],
                     }
@@ -138,25 +147,31 @@ macro_rules! methods {
                         fn in_lanes<R: Lanes>(&mut self, states: Range<usize>) {
                             for start in states.clone().step_by(R::WIDTH) {
                                 let start = start.min(states.end - R::WIDTH);
-                                let q = gather_coordinates::<A, R, N>(&self.q[start..][..R::WIDTH]);
+                                let $q = gather_coordinates::<A, R, N>(&self.$q[start..][..R::WIDTH]);
                                 $(let $other = gather::<R, N>(&self.$other[start..][..R::WIDTH]);)*
                                 let out = &mut self.out[start..][..R::WIDTH];
-                                let $result = A::$kernel::<R>(&q $(, &$other)*);
-                                $(scatter(Numbers::<R>::numbers(&$part), $index, out);)+
-                                $(settle::<A, R, _, N>(&q, $volume, out);)?
+                                let returned: $returned = A::$kernel::<R>(&$q $(, &$other)*);
+                                for part in 0..<$output>::PARTS {
+                                    scatter::<R, _>(returned.part(part), part, out);
+                                }
+                                $(
+                                    let volume_squared = returned.part(<$output>::PARTS)[0];
+                                    settle::<A, R, _, N>(&$q, volume_squared, $zero, out);
+                                )?
                             }
                         }
 
                         #[inline]
                         fn one_by_one(&mut self, states: Range<usize>) {
                             for i in states {
-                                self.out[i] = self.arm.$method(&self.q[i] $(, &self.$other[i])*);
+                                self.out[i] = self.arm.$method(&self.$q[i] $(, &self.$other[i])*);
                             }
                         }
                     }
-                    $(lengths::check(q.len(), stringify!($other), $other.len())?;)*
-                    lengths::check(q.len(), "out", out.len())?;
-                    simd::run_batch(&mut Run { arm: self, q, $($other,)* out }, q.len());
+                    $(lengths::check($q.len(), stringify!($other), $other.len())?;)*
+                    lengths::check($q.len(), "out", out.len())?;
+                    let states = $q.len();
+                    simd::run_batch(&mut Run { arm: self, $q, $($other,)* out }, states);
                     Ok(())
                 }
             )+
@@ -164,19 +179,4 @@ macro_rules! methods {
     };
 }
 
-#[rustfmt::skip]
-methods! {
-    forward_kinematics_batch forward_kinematics(q) -> IsometryMatrix3<f64> = forward_kinematics_kernel from 2 |(rotation, translation)| (0 rotation, 1 translation);
-    geometric_jacobian_batch geometric_jacobian(q) -> SMatrix<f64, 6, N> = geometric_jacobian_kernel from 2 |all| (0 all);
-    jacobian_derivatives_batch jacobian_derivatives(q) -> [SMatrix<f64, 6, N>; N] = jacobian_derivatives_kernel from 4 |all| (0 all);
-    mass_matrix_batch mass_matrix(q) -> SMatrix<f64, N, N> = mass_matrix_kernel from 2 |all| (0 all);
-    mass_matrix_derivatives_batch mass_matrix_derivatives(q) -> [SMatrix<f64, N, N>; N] = mass_matrix_derivatives_kernel from 4 |all| (0 all);
-    dynamic_manipulability_batch dynamic_manipulability(q) -> f64 = dynamic_manipulability_kernel from 2 |(value, volume)| (0 value), volume;
-    dynamic_manipulability_gradient_batch dynamic_manipulability_gradient(q) -> (f64, SVector<f64, N>) = dynamic_manipulability_gradient_kernel from 2 |(value, gradient, volume)| (0 value, 1 gradient), volume;
-    inverse_dynamics_batch inverse_dynamics(q, qd, qdd) -> SVector<f64, N> = inverse_dynamics_kernel from 2 |all| (0 all);
-    bias_force_batch bias_force(q, qd) -> SVector<f64, N> = bias_force_kernel from 2 |all| (0 all);
-    gravity_torque_batch gravity_torque(q) -> SVector<f64, N> = gravity_torque_kernel from 2 |all| (0 all);
-    forward_dynamics_batch forward_dynamics(q, qd, tau) -> SVector<f64, N> = forward_dynamics_kernel from 2 |all| (0 all);
-    mass_matrix_and_derivatives_batch mass_matrix_and_derivatives(q) -> (SMatrix<f64, N, N>, [SMatrix<f64, N, N>; N]) = mass_matrix_and_derivatives_kernel from 4 |(mass, derivatives)| (0 mass, 1 derivatives);
-    jacobian_and_gradient_batch jacobian_and_gradient(q) -> (SMatrix<f64, 6, N>, f64, SVector<f64, N>) = jacobian_and_gradient_kernel from 2 |(jacobian, value, gradient, volume)| (0 jacobian, 1 value, 2 gradient), volume;
-}
+crate::methods! { [N] define_batches {} }

@@ -24,7 +24,7 @@ use bytemuck::Pod;
 use crate::Real;
 
 pub use instructions::Instructions;
-pub use plain::Plain;
+pub(crate) use plain::{Plain, Settled};
 
 /// A [`Real`] of one double in memory.
 pub trait Double: Real + Pod {}
@@ -221,10 +221,10 @@ use operators;
 macro_rules! apart {
     ($features:literal) => {
         #[inline(always)]
-        fn apart<P: crate::kernels::real::Part<S>, S>(state: &mut S) {
+        fn apart<P: crate::internal::Part<S>, S>(state: &mut S) {
             #[target_feature(enable = $features)]
             #[inline(never)]
-            fn run<P: crate::kernels::real::Part<S>, S>(state: &mut S) {
+            fn run<P: crate::internal::Part<S>, S>(state: &mut S) {
                 P::run(state);
             }
             // SAFETY: whoever calls this is compiled for the features, and was called after the processor had been asked.

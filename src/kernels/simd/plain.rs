@@ -1,12 +1,12 @@
 //! What kernels return, on scalars of one double, as what methods return: the same bytes.
 
 use bytemuck::cast;
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3, Vector3};
 
 use super::Double;
 
 /// What a kernel returns, as plain doubles.
-pub trait Plain<T> {
+pub(crate) trait Plain<T> {
     /// The same numbers.
     fn plain(self) -> T;
 }
@@ -32,24 +32,53 @@ macro_rules! same_bytes {
 }
 
 same_bytes! {
-    [R; K] => [f64; K], <K>;
     [R; K] => SVector<f64, K>, <K>;
-    [[R; K]; L] => [[f64; K]; L], <K, L>;
     [[R; K]; L] => SMatrix<f64, K, L>, <K, L>;
     [[[R; K]; L]; M] => [SMatrix<f64, K, L>; M], <K, L, M>;
 }
 
+impl<R: Double> Plain<IsometryMatrix3<f64>> for ([[R; 3]; 3], [R; 3]) {
+    #[inline(always)]
+    fn plain(self) -> IsometryMatrix3<f64> {
+        let (rotation, translation): (Matrix3<f64>, Vector3<f64>) =
+            (self.0.plain(), self.1.plain());
+        IsometryMatrix3::from_parts(
+            Translation3::from(translation),
+            Rotation3::from_matrix_unchecked(rotation),
+        )
+    }
+}
+
+/// What a kernel of w_D returns: a result, and det(JJᵀ) after it.
+pub(crate) trait Settled<T> {
+    /// Both as plain doubles.
+    fn result_and_volume(self) -> (T, f64);
+}
+
+impl<R: Double, A: Plain<X>, X> Settled<X> for (A, R) {
+    #[inline(always)]
+    fn result_and_volume(self) -> (X, f64) {
+        (self.0.plain(), cast(self.1))
+    }
+}
+
 macro_rules! tuple {
-    ($($from:ident $to:ident $field:tt),+) => {
+    ($($from:ident $to:ident $field:tt),+; $volume:tt) => {
         impl<$($from: Plain<$to>, $to),+> Plain<($($to,)+)> for ($($from,)+) {
             #[inline(always)]
             fn plain(self) -> ($($to,)+) {
                 ($(self.$field.plain(),)+)
             }
         }
+
+        impl<R: Double, $($from: Plain<$to>, $to),+> Settled<($($to,)+)> for ($($from,)+ R) {
+            #[inline(always)]
+            fn result_and_volume(self) -> (($($to,)+), f64) {
+                (($(self.$field.plain(),)+), cast(self.$volume))
+            }
+        }
     };
 }
 
-tuple!(A X 0, B Y 1);
-tuple!(A X 0, B Y 1, C Z 2);
-tuple!(A X 0, B Y 1, C Z 2, D W 3);
+tuple!(A X 0, B Y 1; 2);
+tuple!(A X 0, B Y 1, C Z 2; 3);

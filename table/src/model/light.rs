@@ -3,8 +3,8 @@
 use crate::diagnostics::Diagnostic;
 use crate::table::JointTable;
 use crate::toml_reader::Located;
-use ulna::arm::bounds::{LEAST_SHARE, carried_inertia, own_inertia};
-use ulna::arm::coordinates::PRISMATIC_LIMIT;
+use ulna::arm::PRISMATIC_LIMIT;
+use ulna::internal::bounds::{LEAST_SHARE, carried_inertia, own_inertia};
 use ulna::{Joint, JointKind};
 
 /// Where a link's mass and inertia are written.

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use nalgebra::{SMatrix, SVector};
+use ulna::internal::numbers;
 use ulna::proof::{State, states};
-use ulna::{Arm, JointKind, SerialChain};
+use ulna::{Arm, JointKind, Method, SerialChain};
 
 use super::{at_states, near};
 
@@ -80,30 +81,12 @@ pub(crate) fn any_finite_configuration_gives_numbers<const N: usize>(
                 1e-12,
                 "R Rᵀ",
             );
-            let (m, dm) = arm.mass_matrix_and_derivatives(&q);
-            let (j, w, gradient) = arm.jacobian_and_gradient(&q);
-            let (w_beside, gradient_beside) = arm.dynamic_manipulability_gradient(&q);
-            let numbers = [w, w_beside, arm.dynamic_manipulability(&q)]
-                .into_iter()
-                .chain(pose.to_homogeneous().iter().copied())
-                .chain(j.iter().copied())
-                .chain(arm.geometric_jacobian(&q).iter().copied())
-                .chain(arm.jacobian_derivatives(&q).iter().flatten().copied())
-                .chain(m.iter().copied())
-                .chain(arm.mass_matrix(&q).iter().copied())
-                .chain(dm.iter().flatten().copied())
-                .chain(arm.mass_matrix_derivatives(&q).iter().flatten().copied())
-                .chain(gradient.iter().copied())
-                .chain(gradient_beside.iter().copied())
-                .chain(arm.inverse_dynamics(&q, &qd, &qdd).iter().copied())
-                .chain(arm.bias_force(&q, &qd).iter().copied())
-                .chain(arm.gravity_torque(&q).iter().copied())
-                .chain(arm.forward_dynamics(&q, &qd, &tau).iter().copied())
-                .collect::<Vec<_>>();
-            assert!(
-                numbers.iter().all(|x| !x.is_nan()),
-                "NaN at q = {q}: {numbers:?}"
-            );
+            let state = State { q, qd, qdd, tau };
+            for method in Method::ALL {
+                numbers(arm, *method, &state, |x| {
+                    assert!(!x.is_nan(), "{method} is NaN at q = {q}");
+                });
+            }
         }
     }
 }

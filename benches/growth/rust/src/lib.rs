@@ -6,8 +6,9 @@ use std::process::ExitCode;
 use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
+use ulna::internal::call;
 use ulna::proof::{self, State};
-use ulna::{Arm, SerialChain};
+use ulna::{Arm, Method, SerialChain};
 
 /// So many states in turn, that no branch is learnt by heart.
 const STATES: usize = 64;
@@ -16,7 +17,7 @@ const SAMPLES: usize = 51;
 /// How long a sample takes at least.
 const SAMPLE: Duration = Duration::from_millis(2);
 
-type Method<A, const N: usize> = fn(&A, &State<N>);
+type Call<A, const N: usize> = fn(&A, &State<N>);
 
 /// `time METHOD` prints nanoseconds a call; `stack METHOD KIB` calls it once on a stack of that size, and dies where that is
 /// too small; `prove` compares all methods with the textbook.
@@ -37,32 +38,9 @@ pub fn run<A: Arm<N> + Sync, const N: usize>(arm: &A, chain: &SerialChain<N>) ->
     })
 }
 
-fn method<A: Arm<N>, const N: usize>(name: &str) -> Option<Method<A, N>> {
-    macro_rules! methods {
-        ($($method:ident($($argument:ident),*))*) => {
-            match name {
-                $(stringify!($method) => Some(|arm, state| {
-                    black_box(arm.$method($(&state.$argument),*));
-                }),)*
-                _ => None,
-            }
-        };
-    }
-    methods! {
-        forward_kinematics(q)
-        geometric_jacobian(q)
-        jacobian_derivatives(q)
-        mass_matrix(q)
-        mass_matrix_derivatives(q)
-        mass_matrix_and_derivatives(q)
-        dynamic_manipulability(q)
-        dynamic_manipulability_gradient(q)
-        jacobian_and_gradient(q)
-        inverse_dynamics(q, qd, qdd)
-        bias_force(q, qd)
-        gravity_torque(q)
-        forward_dynamics(q, qd, tau)
-    }
+fn method<A: Arm<N>, const N: usize>(name: &str) -> Option<Call<A, N>> {
+    let method = Method::ALL.iter().find(|method| method.name() == name)?;
+    Some(call(*method))
 }
 
 fn prove<A: Arm<N>, const N: usize>(arm: &A, chain: &SerialChain<N>) -> ExitCode {
@@ -74,7 +52,7 @@ fn prove<A: Arm<N>, const N: usize>(arm: &A, chain: &SerialChain<N>) -> ExitCode
 fn time<A: Arm<N>, const N: usize>(
     arm: &A,
     chain: &SerialChain<N>,
-    method: Method<A, N>,
+    method: Call<A, N>,
 ) -> ExitCode {
     let states: Vec<State<N>> = proof::states(chain).take(STATES).collect();
     let passes = |passes: u32| {
@@ -100,7 +78,7 @@ fn time<A: Arm<N>, const N: usize>(
 fn call_on_stack<A: Arm<N> + Sync, const N: usize>(
     arm: &A,
     chain: &SerialChain<N>,
-    method: Method<A, N>,
+    method: Call<A, N>,
     kib: usize,
 ) -> ExitCode {
     let called = thread::scope(|scope| {

@@ -4,11 +4,10 @@
 //! that w_D may take it from: in the axes of the frame itself, and, by way of the frame, in world axes.
 
 use serde_json::{Value, json};
-use ulna_codegen::formulate::chain::Chain;
-use ulna_codegen::formulate::kinematics::{Twist, jacobian_in_group, jacobian_in_world};
-use ulna_codegen::formulate::mass_matrix::mass_matrix;
-use ulna_codegen::graph::{Graph, Input};
-use ulna_codegen::schedule::{Operand, Output, Program, schedule};
+use ulna_codegen::internal::{
+    Chain, Graph, Twist, jacobian_in_group, jacobian_in_world, mass_matrix, schedule,
+};
+use ulna_codegen::{Input, Operand, Output, Program};
 use ulna_table::Model;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -17,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let methods: serde_json::Map<String, Value> = ulna_codegen::compile(&model)
         .methods
         .iter()
-        .map(|method| (method.name.into(), listing(&method.program)))
+        .map(|method| (method.method.name().into(), listing(&method.program)))
         .collect();
     let groups = Chain::new(&Graph::new(), &model).groups.len();
     let in_every_frame = |jacobian: JacobianIn| -> Vec<Value> {
@@ -39,20 +38,11 @@ type JacobianIn = for<'g> fn(&Chain<'g>, usize) -> Vec<Twist<'g>>;
 fn with_mass(model: &Model, jacobian: JacobianIn, frame: usize) -> Program {
     let graph = Graph::new();
     let chain = Chain::new(&graph, model);
+    let n = chain.joint_count();
     let columns = jacobian(&chain, frame);
-    let jacobian = Output {
-        name: "jacobian",
-        shape: vec![chain.joint_count(), 6],
-        elements: columns
-            .iter()
-            .flat_map(|twist| twist.components())
-            .collect(),
-    };
-    let mass = Output {
-        name: "mass",
-        shape: vec![chain.joint_count(); 2],
-        elements: mass_matrix(&chain).concat(),
-    };
+    let twists = columns.iter().flat_map(|twist| twist.components());
+    let jacobian = Output::new("jacobian", &[n, 6], twists.collect());
+    let mass = Output::new("mass", &[n, n], mass_matrix(&chain).concat());
     schedule(&graph, &[jacobian, mass])
 }
 

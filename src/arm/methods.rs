@@ -1,0 +1,257 @@
+//! The table of methods: what [`Arm`](crate::Arm) computes, a row each.
+//!
+//! Everything that repeats over methods follows from it: the traits [`Arm`](crate::Arm), [`Unrolled`](crate::Unrolled) and
+//! [`ArmBatch`](crate::ArmBatch), what makes an arm of kernels, the comparison in [`proof`](crate::proof), the generator's
+//! interpreter, the counts, the benches, and the tests that run through all methods.
+//!
+//! A new method is a row here; its textbook formula in `generic`; its formula for few operations in `ulna_codegen::formulate`,
+//! which does not compile without one; and numbers from outside in the tests. A kind of quantity that none of the
+//! others is compared like needs a rule in [`proof`](crate::proof) besides.
+
+/// Hands the table to a macro: `methods! { [N] callback! {context} }` becomes `callback! { [context] rows }`.
+/// `N` is what stands for the number of joints in the rows' types: a parameter's name or a number.
+///
+/// A row is
+///
+/// ```text
+/// /// What the method returns, with equation, shape and units.
+/// Variant = method(arguments) -> type
+/// { kernel "What the generated function returns." name -> type on scalars R, zero from part }
+/// { batch name from width }
+/// { error rule }
+/// { default |arm| expression }
+/// ```
+///
+/// - An argument is one of those of [`Argument`].
+/// - A kernel's matrix is an array of its columns. `zero from k`, for methods of w_D: the kernel returns det(JJᵀ) over the
+///   task's rows after all else, and where [that counts as 0](crate::arm::singular) the parts of the result from k on are 0.
+/// - A batch runs in lanes where a register holds `width` doubles or more: measured, see [`ArmBatch`](crate::ArmBatch).
+/// - The rule tells how large an error may be; it is a method of the judge in [`proof`](crate::proof).
+/// - The default, which most rows have not, makes the result of other methods'.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! methods {
+    ([$n:tt] $callback:path { $($context:tt)* }) => {
+        $callback! {
+            [$($context)*]
+
+            /// `world_from_tool`.
+            ForwardKinematics = forward_kinematics(q) -> $crate::nalgebra::IsometryMatrix3<f64>
+            { kernel "`world_from_tool`: the rotation's columns, and the translation in m."
+              forward_kinematics_kernel -> ([[R; 3]; 3], [R; 3]) }
+            { batch forward_kinematics_batch from 2 }
+            { error pose }
+
+            /// Geometric Jacobian J, 6×N: `[v; ω] = J q̇`. All six rows, whatever the task.
+            GeometricJacobian = geometric_jacobian(q) -> $crate::nalgebra::SMatrix<f64, 6, $n>
+            { kernel "Geometric Jacobian, 6×N: columns `[v; ω]` in world axes, at the tool point."
+              geometric_jacobian_kernel -> [[R; 6]; $n] }
+            { batch geometric_jacobian_batch from 2 }
+            { error twists }
+
+            /// ∂J/∂q_i, one 6×N matrix for each i.
+            JacobianDerivatives = jacobian_derivatives(q) -> [$crate::nalgebra::SMatrix<f64, 6, $n>; $n]
+            { kernel "∂J/∂q_i, 6×N for each i: columns `[v; ω]` in world axes, at the tool point."
+              jacobian_derivatives_kernel -> [[[R; 6]; $n]; $n] }
+            { batch jacobian_derivatives_batch from 4 }
+            { error twist_derivatives }
+
+            /// Mass matrix M, N×N, full and symmetric, kg·m².
+            MassMatrix = mass_matrix(q) -> $crate::nalgebra::SMatrix<f64, $n, $n>
+            { kernel "Mass matrix, N×N, kg·m²."
+              mass_matrix_kernel -> [[R; $n]; $n] }
+            { batch mass_matrix_batch from 2 }
+            { error masses }
+
+            /// ∂M/∂q_i, one N×N matrix for each i.
+            MassMatrixDerivatives = mass_matrix_derivatives(q) -> [$crate::nalgebra::SMatrix<f64, $n, $n>; $n]
+            { kernel "∂M/∂q_i, N×N for each i, kg·m²/rad."
+              mass_matrix_derivatives_kernel -> [[[R; $n]; $n]; $n] }
+            { batch mass_matrix_derivatives_batch from 4 }
+            { error mass_derivatives }
+
+            /// Dynamic manipulability `w_D = √det((JM⁻¹)(JM⁻¹)ᵀ)` over the task's rows of J (Eq. 15).
+            DynamicManipulability = dynamic_manipulability(q) -> f64
+            { kernel "w_D over the task's rows of J (Eq. 15), and det(JJᵀ) over them."
+              dynamic_manipulability_kernel -> (R, R), zero from 0 }
+            { batch dynamic_manipulability_batch from 2 }
+            { error manipulability }
+
+            /// w_D and its gradient ∇w_D (Eq. 22–27).
+            ///
+            /// Where w_D is 0, Eq. 23 has no value; the gradient returned there is the zero vector. [`crate::arm::singular`] says where that is.
+            DynamicManipulabilityGradient = dynamic_manipulability_gradient(q) -> (f64, $crate::nalgebra::SVector<f64, $n>)
+            { kernel "w_D, ∇w_D (Eq. 22–27), and det(JJᵀ) over the task's rows."
+              dynamic_manipulability_gradient_kernel -> (R, [R; $n], R), zero from 0 }
+            { batch dynamic_manipulability_gradient_batch from 2 }
+            { error gradient }
+
+            /// Inverse dynamics τ = M q̈ + c(q, q̇) + g(q), N·m, without a tool wrench.
+            InverseDynamics = inverse_dynamics(q, qd, qdd) -> $crate::nalgebra::SVector<f64, $n>
+            { kernel "Joint torques, N·m, for the accelerations `qdd`."
+              inverse_dynamics_kernel -> [R; $n] }
+            { batch inverse_dynamics_batch from 2 }
+            { error torques }
+
+            /// Bias force c(q, q̇) + g(q): the inverse dynamics at q̈ = 0.
+            BiasForce = bias_force(q, qd) -> $crate::nalgebra::SVector<f64, $n>
+            { kernel "Joint torques, N·m, at zero acceleration."
+              bias_force_kernel -> [R; $n] }
+            { batch bias_force_batch from 2 }
+            { error torques_unaccelerated }
+
+            /// Gravity torque g(q): the inverse dynamics at q̇ = 0, q̈ = 0.
+            GravityTorque = gravity_torque(q) -> $crate::nalgebra::SVector<f64, $n>
+            { kernel "Joint torques, N·m, at rest."
+              gravity_torque_kernel -> [R; $n] }
+            { batch gravity_torque_batch from 2 }
+            { error torques_at_rest }
+
+            /// Forward dynamics q̈ = M⁻¹(τ − c(q, q̇) − g(q)), without a tool wrench.
+            ForwardDynamics = forward_dynamics(q, qd, tau) -> $crate::nalgebra::SVector<f64, $n>
+            { kernel "Joint accelerations, rad/s², under the torques `tau`."
+              forward_dynamics_kernel -> [R; $n] }
+            { batch forward_dynamics_batch from 2 }
+            { error accelerations }
+
+            /// M and all ∂M/∂q_i in one call.
+            MassMatrixAndDerivatives = mass_matrix_and_derivatives(q)
+                -> ($crate::nalgebra::SMatrix<f64, $n, $n>, [$crate::nalgebra::SMatrix<f64, $n, $n>; $n])
+            { kernel "Mass matrix, and its derivatives by each joint."
+              mass_matrix_and_derivatives_kernel -> ([[R; $n]; $n], [[[R; $n]; $n]; $n]) }
+            { batch mass_matrix_and_derivatives_batch from 4 }
+            { error masses_and_derivatives }
+            { default |arm| (arm.mass_matrix(q), arm.mass_matrix_derivatives(q)) }
+
+            /// J (six rows), w_D and ∇w_D in one call: what a cycle of the suppression controller needs.
+            JacobianAndGradient = jacobian_and_gradient(q)
+                -> ($crate::nalgebra::SMatrix<f64, 6, $n>, f64, $crate::nalgebra::SVector<f64, $n>)
+            { kernel "Geometric Jacobian, w_D, ∇w_D, and det(JJᵀ) over the task's rows."
+              jacobian_and_gradient_kernel -> ([[R; 6]; $n], R, [R; $n], R), zero from 1 }
+            { batch jacobian_and_gradient_batch from 2 }
+            { error twists_and_gradient }
+            { default |arm| {
+                let (w, gradient) = arm.dynamic_manipulability_gradient(q);
+                (arm.geometric_jacobian(q), w, gradient)
+            } }
+        }
+    };
+}
+
+/// An argument of a method: a vector of N numbers, one for each joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Argument {
+    /// Joint coordinates, rad (m).
+    Q,
+    /// Their rates, rad/s (m/s).
+    Qd,
+    /// Their accelerations, rad/s² (m/s²).
+    Qdd,
+    /// Joint torques, N·m (N).
+    Tau,
+}
+
+impl Argument {
+    /// Every argument that there is.
+    pub const ALL: [Self; 4] = [Self::Q, Self::Qd, Self::Qdd, Self::Tau];
+
+    /// What it is called: `q`, `qd`, `qdd`, `tau`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Q => "q",
+            Self::Qd => "qd",
+            Self::Qdd => "qdd",
+            Self::Tau => "tau",
+        }
+    }
+}
+
+macro_rules! argument {
+    (q) => {
+        Argument::Q
+    };
+    (qd) => {
+        Argument::Qd
+    };
+    (qdd) => {
+        Argument::Qdd
+    };
+    (tau) => {
+        Argument::Tau
+    };
+}
+
+macro_rules! define_method {
+    ([] $(
+        $(#[$doc:meta])*
+        $variant:ident = $method:ident($($argument:ident),+) -> $output:ty
+        { kernel $returns:literal $kernel:ident -> $returned:ty $(, zero from $zero:literal)? }
+        $({ $($rest:tt)* })*
+    )+) => {
+        /// A method of [`Arm`](crate::Arm) that computes something.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Method {
+            $(
+                #[doc = concat!("[`Arm::", stringify!($method), "`](crate::Arm::", stringify!($method), ").")]
+                $variant,
+            )+
+        }
+
+        impl Method {
+            /// Every method, in the order of the trait.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),+];
+
+            /// Its name in the trait [`Arm`](crate::Arm).
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => stringify!($method),)+
+                }
+            }
+
+            /// Its arguments, in order.
+            pub const fn arguments(self) -> &'static [Argument] {
+                match self {
+                    $(Self::$variant => &[$(argument!($argument)),+],)+
+                }
+            }
+
+            /// The name of its kernel in the trait [`Unrolled`](crate::Unrolled).
+            pub const fn kernel(self) -> &'static str {
+                match self {
+                    $(Self::$variant => stringify!($kernel),)+
+                }
+            }
+
+            /// What its kernel returns, in a sentence.
+            pub const fn returns(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $returns,)+
+                }
+            }
+
+            /// The first part of its result that is 0 where the task is singular; none for what has no w_D in it.
+            pub const fn zero_where_singular(self) -> Option<usize> {
+                match self {
+                    $(Self::$variant => first_of!([$($zero)?]),)+
+                }
+            }
+        }
+    };
+}
+
+macro_rules! first_of {
+    ([]) => {
+        None
+    };
+    ([$first:literal]) => {
+        Some($first)
+    };
+}
+
+crate::methods! { [N] define_method {} }
+
+impl core::fmt::Display for Method {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.pad(self.name())
+    }
+}

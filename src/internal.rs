@@ -1,0 +1,11 @@
+//! What generated code and the other crates of ulna need of this one, and users do not: it may change with any version.
+
+pub use crate::arm::bounds;
+pub use crate::arm::coordinates::{are_plain, coordinates, prismatic_offset, revolute_angle};
+pub use crate::arm::quantity::Quantity;
+pub use crate::kernels::real::Part;
+pub use crate::kernels::scalar as methods;
+pub use crate::kernels::simd::{BLOCK, BatchCall, Call, Double, Lanes, MAX_WIDTH, run, run_batch};
+pub use crate::kernels::trigonometry;
+pub use crate::proof::calls::{call, numbers};
+pub use crate::proof::random;
