@@ -1,25 +1,9 @@
 //! `ulna cost`.
 
 use serde_json::Value;
+use ulna::Method;
 
 use crate::support::{folder_with_bad_table, stdout, ulna};
-
-/// The methods of `Arm` that compute something.
-const METHODS: [&str; 13] = [
-    "forward_kinematics",
-    "geometric_jacobian",
-    "jacobian_derivatives",
-    "mass_matrix",
-    "mass_matrix_derivatives",
-    "dynamic_manipulability",
-    "dynamic_manipulability_gradient",
-    "inverse_dynamics",
-    "bias_force",
-    "gravity_torque",
-    "forward_dynamics",
-    "mass_matrix_and_derivatives",
-    "jacobian_and_gradient",
-];
 
 #[test]
 fn json_has_every_method_and_every_operation() {
@@ -37,8 +21,9 @@ fn json_has_every_method_and_every_operation() {
     };
     assert_eq!(keys(&cost), ["arm", "quantities"]);
     assert_eq!(cost["arm"], "ssrms");
-    assert_eq!(keys(&cost["quantities"]), METHODS);
-    for method in METHODS {
+    let methods: Vec<_> = Method::ALL.iter().map(|method| method.name()).collect();
+    assert_eq!(keys(&cost["quantities"]), methods);
+    for method in methods {
         let counts = &cost["quantities"][method];
         let mut names = keys(counts);
         names.sort();
