@@ -30,6 +30,7 @@ struct Golden {
 struct Manipulability {
     w: f64,
     gradient: Vec<f64>,
+    inverse_mass_matrix: Vec<f64>,
     condition: f64,
 }
 
@@ -175,6 +176,11 @@ fn agrees_with_40_digits<const N: usize>(backend: &str, name: &str, arm: &impl A
         errors.record("w_D", [arm.dynamic_manipulability(&q)], &[exact.w]);
         errors.record("w_D with gradient", [w], &[exact.w]);
         errors.record("grad w_D", gradient.iter().copied(), &exact.gradient);
+        errors.record(
+            "inverse of M",
+            upper_triangle(&arm.inverse_mass_matrix(&q)),
+            &exact.inverse_mass_matrix,
+        );
         worst_condition = worst_condition.max(exact.condition);
     }
     println!("{backend} {name}: condition of H up to {worst_condition:.0}");

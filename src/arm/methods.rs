@@ -70,6 +70,13 @@ macro_rules! methods {
             { batch mass_matrix_derivatives_batch from 4 }
             { error mass_derivatives }
 
+            /// Inverse mass matrix M⁻¹, N×N, full and symmetric, 1/(kg·m²): `q̈ = M⁻¹ τ` at rest and without gravity.
+            InverseMassMatrix = inverse_mass_matrix(q) -> $crate::nalgebra::SMatrix<f64, $n, $n>
+            { kernel "Inverse mass matrix, N×N, 1/(kg·m²)."
+              inverse_mass_matrix_kernel -> [[R; $n]; $n] }
+            { batch inverse_mass_matrix_batch from 2 }
+            { error inverse_masses }
+
             /// Dynamic manipulability `w_D = √det((JM⁻¹)(JM⁻¹)ᵀ)` over the task's rows of J (Eq. 15).
             DynamicManipulability = dynamic_manipulability(q) -> f64
             { kernel "w_D over the task's rows of J (Eq. 15), and det(JJᵀ) over them."

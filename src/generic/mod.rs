@@ -72,6 +72,13 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         self.derivatives(&self.inputs(q), |shifted| self.mass_matrix_at(shifted))
     }
 
+    fn inverse_mass_matrix(&self, q: &SVector<f64, N>) -> SMatrix<f64, N, N> {
+        let mut inverse = mass_matrix::factor(self.mass_matrix(q)).inverse();
+        // Equal but for rounding; the contract is a symmetric matrix.
+        inverse.fill_lower_triangle_with_upper_triangle();
+        inverse
+    }
+
     fn dynamic_manipulability(&self, q: &SVector<f64, N>) -> f64 {
         self.manipulability(&self.inputs(q))
     }

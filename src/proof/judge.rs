@@ -102,6 +102,22 @@ impl<'a, A: Arm<N>, const N: usize> Judge<'a, A, N> {
         (worse(masses, changes), allowed)
     }
 
+    /// The error of the mass matrix whose inverse it is: `M X − 1`, beside what the terms of M amount to.
+    pub(super) fn inverse_masses(
+        &self,
+        found: Square<N>,
+        _: impl FnOnce() -> Square<N>,
+    ) -> Verdict {
+        let residual = self.reference.mass_matrix(&self.state.q) * found - Square::identity();
+        let sizes = &self.scale.inertia;
+        let error = |(i, j): (usize, usize)| {
+            let terms: f64 = (0..N).map(|k| sizes[k] * found[(k, j)].abs()).sum();
+            residual[(i, j)].abs() / (sizes[i] * terms)
+        };
+        let entries = (0..N).flat_map(|i| (0..N).map(move |j| (i, j)));
+        rounded::<N>(entries.map(error).fold(0.0, worse))
+    }
+
     pub(super) fn manipulability(&self, found: f64, expected: impl FnOnce() -> f64) -> Verdict {
         let error = relative(found - expected(), self.manipulability);
         (error, self.conditioned(1.0))

@@ -1,10 +1,11 @@
-"""w_D and its gradient to 40 digits, at the configurations of golden_pinocchio.py.
+"""w_D, its gradient, and M^-1 to 40 digits, at the configurations of golden_pinocchio.py.
 
 Straight from Eq. 15 with numbers of 80 digits: H = J M^-1 over the task's rows, w_D the root of det(H H'),
 its slopes by central differences with a step of 1e-25, whose error is of order 1e-50. The arm is built from its
 table by a reading of its own and shares nothing with the Rust code or the other script.
 Writes data/<arm>.manipulability.jsonl beside this file: one configuration a line, with
-    w, gradient     w_D and its gradient
+    w, gradient             w_D and its gradient
+    inverse_mass_matrix     the upper triangle, row by row
     condition       the largest singular value of H over the smallest: how much of the rounding of M and J
                     a computation in doubles may have in w_D at best
 
@@ -154,7 +155,10 @@ def golden(arm, q):
     with mp.workdps(30):
         singular = svd_r(arm.h(q), compute_uv=False)
         condition = max(singular) / min(singular)
-    return arm.manipulability(q), gradient, condition
+    n = len(q)
+    inverse = arm.jacobian_and_mass_matrix(q)[1] ** -1
+    upper = [inverse[r, c] for r in range(n) for c in range(r, n)]
+    return arm.manipulability(q), gradient, upper, condition
 
 
 def main():
@@ -164,9 +168,10 @@ def main():
         with open(HERE / "data" / f"{path.stem}.manipulability.jsonl", "w") as out:
             for line in configurations:
                 q = [mpf(x) for x in json.loads(line)["q"]]
-                w, gradient, condition = golden(arm, q)
-                slopes = ",".join(nstr(slope, 20) for slope in gradient)
-                out.write(f'{{"w":{nstr(w, 20)},"gradient":[{slopes}],"condition":{nstr(condition, 3)}}}\n')
+                w, gradient, inverse, condition = golden(arm, q)
+                slopes, inverse = (",".join(nstr(x, 20) for x in row) for row in (gradient, inverse))
+                line = f'"w":{nstr(w, 20)},"gradient":[{slopes}],"inverse_mass_matrix":[{inverse}]'
+                out.write(f'{{{line},"condition":{nstr(condition, 3)}}}\n')
         print(f"{path.stem}: {len(configurations)} configurations")
 
 

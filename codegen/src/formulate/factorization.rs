@@ -51,6 +51,31 @@ impl<'g> Factors<'g> {
         self.solve_in_steps(b).1
     }
 
+    /// The inverse of U D Uᵀ, full and symmetric: `Vᵀ D⁻¹ V`, V = U⁻¹.
+    pub(crate) fn inverse(&self) -> Vec<Vec<Expr<'g>>> {
+        let n = self.pivots.len();
+        let (zero, one) = (self.pivots[0].of(0.0), self.pivots[0].of(1.0));
+        let mut v = vec![vec![zero; n]; n];
+        for j in 0..n {
+            v[j][j] = one;
+            for i in (0..j).rev() {
+                let sum = (i + 1..=j).fold(zero, |sum, k| sum + self.upper[i][k] * v[k][j]);
+                v[i][j] = -sum;
+            }
+        }
+        let scaled: Vec<Vec<Expr<'g>>> = v
+            .iter()
+            .zip(&self.inverse_pivots)
+            .map(|(row, inverse)| row.iter().map(|x| *x * *inverse).collect())
+            .collect();
+        let entry = |i: usize, j: usize| {
+            let (first, second) = (i.min(j), i.max(j));
+            (0..=first).fold(zero, |sum, k| sum + scaled[k][first] * v[k][second])
+        };
+        let row = |i: usize| (0..n).map(|j| entry(i, j)).collect();
+        (0..n).map(row).collect()
+    }
+
     /// Uᵀ x, and x, of (U D Uᵀ) x = b.
     pub(crate) fn solve_in_steps(&self, b: &[Expr<'g>]) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
         let n = b.len();

@@ -71,6 +71,7 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
         Method::JacobianDerivatives => vec![derivatives_of_jacobian(chain, choices)],
         Method::MassMatrix => vec![mass(chain)],
         Method::MassMatrixDerivatives => vec![derivatives_of_mass(chain)],
+        Method::InverseMassMatrix => vec![inverse_mass(chain, choices)],
         Method::DynamicManipulability => manipulability_alone(chain, choices),
         Method::DynamicManipulabilityGradient => manipulability_and_gradient(chain, choices),
         Method::InverseDynamics => {
@@ -125,6 +126,16 @@ fn derivatives_of_mass<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
     let n = chain.joint_count();
     let elements = mass_matrix_derivatives(chain).concat().concat();
     Output::new("derivatives", &[n, n, n], elements)
+}
+
+fn inverse_mass<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
+    let n = chain.joint_count();
+    let factors = if choices.articulated {
+        articulated::factors(chain)
+    } else {
+        factorization::factor(&mass_matrix(chain))
+    };
+    Output::new("inverse", &[n, n], factors.inverse().concat())
 }
 
 fn torque<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Output<Expr<'g>> {
