@@ -1,5 +1,26 @@
 //! From a robot arm's table to unrolled Rust: the generator of ulna.
 //!
+//! ```no_run
+//! // build.rs, with `ulna-codegen` among the build dependencies and `ulna` among the others;
+//! // then in src/lib.rs: include!(concat!(env!("OUT_DIR"), "/ssrms.rs"));
+//! fn main() -> Result<(), ulna_codegen::Error> {
+//!     ulna_codegen::compile_arms(&["arms/ssrms.toml"])
+//! }
+//! ```
+//!
+//! What is written is a type, here `Ssrms`, that implements [`ulna::Arm`], and a test that proves it.
+//!
+//! # Where to go
+//!
+//! - [`compile_arms`] and [`compile_folder`]: for build scripts. The crate `ulna-macros` does it without one, the program `ulna` by hand.
+//! - [`generate`]: a [`Model`] in, [`Generated`] code out, as text or tokens.
+//! - [`compile`]: the [`Program`]s that code is printed from, for whoever prints them in another way.
+//! - [`Interpreter`]: an arm that runs its programs without a compiler; [`Exact`] runs them in 106 bits.
+//!
+//! There are no features.
+//!
+//! # Inside
+//!
 //! The stages, in the order in which an arm passes through them:
 //!
 //! | stage | from | to |
@@ -8,8 +29,6 @@
 //! | schedule | outputs on a graph | a straight-line [`Program`] |
 //! | accuracy | programs | their rounding errors, on which the choice of formulas depends |
 //! | emit | programs | Rust |
-//!
-//! A build script calls [`compile_arms`]; the macro and the command line call [`generate`].
 
 mod accuracy;
 mod build;

@@ -22,7 +22,7 @@ use crate::output::{self, Files};
 use crate::{Verdict, console};
 
 /// The scenario that is repeated when none is named; compiled in, so that the program needs no repository.
-const PAPER_LIKE: &str = include_str!("../../../scenarios/paper_like.toml");
+const PAPER_LIKE: &str = include_str!("../../scenarios/paper_like.toml");
 const OUTPUT: &str = "out";
 /// What was found, in words.
 const PAGE: &str = "README.md";
