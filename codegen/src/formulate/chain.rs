@@ -49,7 +49,7 @@ impl<'g> Group<'g> {
     }
 
     /// A vector of the axes of the group before, in this group's.
-    pub fn from_parent(&self, v: Vec3<'g>) -> Vec3<'g> {
+    pub fn of_parent(&self, v: Vec3<'g>) -> Vec3<'g> {
         v.turn_x(self.alpha.inverse()).turn_z(self.turn.inverse())
     }
 }

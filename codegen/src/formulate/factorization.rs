@@ -55,22 +55,26 @@ impl<'g> Factors<'g> {
     pub(crate) fn inverse(&self) -> Vec<Vec<Expr<'g>>> {
         let n = self.pivots.len();
         let (zero, one) = (self.pivots[0].of(0.0), self.pivots[0].of(1.0));
-        let mut v = vec![vec![zero; n]; n];
-        for j in 0..n {
-            v[j][j] = one;
+        // By columns, each up to its diagonal.
+        let column = |j: usize| {
+            let mut column = vec![zero; j + 1];
+            column[j] = one;
             for i in (0..j).rev() {
-                let sum = (i + 1..=j).fold(zero, |sum, k| sum + self.upper[i][k] * v[k][j]);
-                v[i][j] = -sum;
+                let sum = (i + 1..=j).fold(zero, |sum, k| sum + self.upper[i][k] * column[k]);
+                column[i] = -sum;
             }
-        }
-        let scaled: Vec<Vec<Expr<'g>>> = v
-            .iter()
-            .zip(&self.inverse_pivots)
-            .map(|(row, inverse)| row.iter().map(|x| *x * *inverse).collect())
-            .collect();
+            column
+        };
+        let v: Vec<Vec<Expr<'g>>> = (0..n).map(column).collect();
+        let over_pivots = |column: &Vec<Expr<'g>>| {
+            let pairs = column.iter().zip(&self.inverse_pivots);
+            pairs.map(|(x, inverse)| *x * *inverse).collect()
+        };
+        let scaled: Vec<Vec<Expr<'g>>> = v.iter().map(over_pivots).collect();
         let entry = |i: usize, j: usize| {
-            let (first, second) = (i.min(j), i.max(j));
-            (0..=first).fold(zero, |sum, k| sum + scaled[k][first] * v[k][second])
+            let (short, long) = (&scaled[i.min(j)], &v[i.max(j)]);
+            let pairs = short.iter().zip(long);
+            pairs.fold(zero, |sum, (x, y)| sum + *x * *y)
         };
         let row = |i: usize| (0..n).map(|j| entry(i, j)).collect();
         (0..n).map(row).collect()

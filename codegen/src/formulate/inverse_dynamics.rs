@@ -89,7 +89,7 @@ fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Moti
             let joint = &chain.joints[i];
             motion.acceleration = motion.acceleration + times(&motion.lambda(), joint.offset);
             if i == group.joints.start {
-                motion = motion.map(|v| group.from_parent(v));
+                motion = motion.map(|v| group.of_parent(v));
             }
             let [wx, wy, wz] = motion.velocity.0;
             let across = |rate: Expr<'g>, last| Vec3([wy * rate, -(wx * rate), last]);

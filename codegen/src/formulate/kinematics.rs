@@ -79,7 +79,7 @@ fn own_twists<'g>(chain: &Chain<'g>) -> Vec<Twist<'g>> {
 fn express<'g>(chain: &Chain<'g>, v: Vec3<'g>, from: usize, to: usize) -> Vec3<'g> {
     let (down, up) = (to.min(from)..from, from.min(to)..to);
     let lowered = down.rev().fold(v, |v, g| chain.groups[g].to_parent(v));
-    up.fold(lowered, |v, g| chain.groups[g].from_parent(v))
+    up.fold(lowered, |v, g| chain.groups[g].of_parent(v))
 }
 
 /// J by columns, in the axes of one group (0: base). A task of whole triplets has the same w_D in all axes.

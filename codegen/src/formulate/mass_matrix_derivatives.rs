@@ -59,7 +59,7 @@ fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
             for twist in &mut twists {
                 twist.linear = twist.linear + twist.angular.cross(joint.offset);
                 if i == group.joints.start {
-                    *twist = twist.map(|v| group.from_parent(v));
+                    *twist = twist.map(|v| group.of_parent(v));
                 }
             }
             all.push(twists.clone());
