@@ -19,7 +19,7 @@ fn known() -> Vec<KnownArm> {
             let model = Model::load(format!("../arms/{name}.toml")).unwrap();
             KnownArm {
                 name,
-                joints: model.joints.leak(),
+                joints: model.description().joints.leak(),
             }
         })
         .collect()
@@ -135,7 +135,7 @@ fn a_table_stands_in_for_a_known_arm() {
         panic!("a table");
     };
     assert_eq!(path, Path::new("scenarios/../arms/ssrms.toml"));
-    assert_eq!(model.name, "ssrms");
+    assert_eq!(model.name(), "ssrms");
     assert_eq!(by_table.motion, by_name.motion);
     let chain = SerialChain::<7>::try_from(model.as_ref()).unwrap();
     let motion = by_table.motion.plan(&chain, 0.05).unwrap();

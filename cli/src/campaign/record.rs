@@ -25,7 +25,7 @@ impl Identity {
     pub(super) fn of(scenario: &Scenario) -> Self {
         let arm = match &scenario.arm {
             ScenarioArm::Known(arm) => format!("{arm:?}"),
-            ScenarioArm::Table { model, .. } => model.table_hash.clone(),
+            ScenarioArm::Table { model, .. } => model.table_hash().to_owned(),
         };
         let variation = CampaignSettings {
             cases: 0,
