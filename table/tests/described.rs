@@ -270,9 +270,9 @@ fn the_hash_is_that_of_the_numbers() {
 
 #[test]
 fn warnings_do_not_refuse() {
-    let rounded = changed(|arm| arm.joints[1].alpha = Angle::from_radians(1.5708));
+    let rounded = changed(|arm| arm.joints[1].alpha = Angle::from_radians(1.571));
     let (model, found) = Model::lint_description(&rounded).unwrap();
-    assert_eq!(model.joints()[1].alpha.radians, 1.5708);
+    assert_eq!(model.joints()[1].alpha.radians, 1.571);
     assert_eq!(found.list().len(), 1);
     assert_eq!(found.list()[0].severity, Severity::Warning);
 }

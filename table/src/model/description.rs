@@ -9,7 +9,25 @@ use ulna::{Joint, Placement, TaskRows};
 
 /// An arm as a program gives it: read from another format, or changed. [`Model::new`] examines it.
 ///
-/// The numbers are those of a table, in SI units and radians. [`Model::description`] gives those of a model.
+/// The numbers are those of a table, in SI units and radians. [`Model::description`] gives those of a model:
+///
+/// ```
+/// use ulna_table::{Model, TableErrors};
+///
+/// /// The arm with a payload of `mass` kg at its last link's centroid.
+/// fn loaded(arm: &Model, mass: f64) -> Result<Model, TableErrors> {
+///     let mut description = arm.description();
+///     if let Some(last) = description.joints.last_mut() {
+///         last.link.mass += mass;
+///     }
+///     Model::new(&description)
+/// }
+/// # let arm = Model::load("../arms/planar_2r.toml")?;
+/// assert_eq!(loaded(&arm, 2.0)?.joints()[1].link.mass, 3.0);
+/// let refused = loaded(&arm, -2.0).unwrap_err().to_string();
+/// assert!(refused.contains("`mass` of joint 2 is out of bounds"));
+/// # Ok::<(), TableErrors>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// The arm's name, `snake_case`, a Rust identifier that is no keyword.
