@@ -37,17 +37,17 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
 }
 
 fn summarize(path: &Path, model: &Model, out: &mut dyn Write) -> io::Result<()> {
-    let joints = &model.joints;
+    let joints = model.joints();
     let kinds: Vec<_> = joints.iter().map(|joint| kind(joint.kind)).collect();
-    let rows: Vec<_> = model.task.iter().map(TaskRow::name).collect();
+    let rows: Vec<_> = model.task().iter().map(TaskRow::name).collect();
     let mass: f64 = joints.iter().map(|joint| joint.link.mass).sum();
     let rated = joints.iter().filter(|joint| joint.rated_torque.is_some());
-    let [x, y, z] = model.gravity;
+    let [x, y, z] = model.gravity();
     writeln!(out, "{}: ok", path.display())?;
     writeln!(
         out,
         "  arm            {}, as a type {}",
-        model.name,
+        model.name(),
         model.type_name()
     )?;
     writeln!(
@@ -65,7 +65,7 @@ fn summarize(path: &Path, model: &Model, out: &mut dyn Write) -> io::Result<()> 
         rated.count(),
         joints.len()
     )?;
-    writeln!(out, "  sha256         {}", model.table_hash)
+    writeln!(out, "  sha256         {}", model.table_hash())
 }
 
 fn kind(kind: JointKind) -> &'static str {

@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         writeln!(
             out,
             "{}: {lines} lines, generated in {seconds:.3} s",
-            model.name
+            model.name()
         )?;
         writeln!(out, "{}", table(&generated))?;
     }
@@ -62,7 +62,7 @@ fn json(model: &Model, generated: &Generated) -> Value {
         .iter()
         .map(|(method, count)| (method.name().to_owned(), counts(count)))
         .collect();
-    json!({ "arm": model.name, "quantities": quantities })
+    json!({ "arm": model.name(), "quantities": quantities })
 }
 
 /// One row for each method, one column for each operation; `total` is without `sin_cos`.

@@ -20,12 +20,12 @@ pub(crate) trait ForChain {
 pub(crate) fn with_chain<W: ForChain>(model: &Model, work: W) -> anyhow::Result<W::Output> {
     macro_rules! dispatch {
         ($most:literal: $($joints:literal)+) => {
-            match model.joints.len() {
+            match model.joints().len() {
                 $($joints => Ok(work.run(&SerialChain::<$joints>::try_from(model)?)),)+
                 joints => bail!(
                     "arm `{}` has {joints} joints; this program was compiled for up to {}. \
                      In a test of your own, `ulna::proof::compare::<{joints}>` does the same",
-                    model.name,
+                    model.name(),
                     $most,
                 ),
             }

@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     writeln!(
         out,
         "{}: the emitted program against its own formulas in 106 bits\n{emitted}",
-        model.name
+        model.name()
     )?;
     writeln!(
         out,
@@ -53,7 +53,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     }
     let mut verdict = Verdict::Pass;
     let mut wrong = |what: &str| {
-        console::error(&format!("`{}`: {what}", model.name));
+        console::error(&format!("`{}`: {what}", model.name()));
         verdict = Verdict::Fail;
     };
     if !emitted.passes() {

@@ -126,10 +126,10 @@ fn tables_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 fn list(models: &[Model]) -> String {
     let includes = models
         .iter()
-        .map(|model| format!("include!(\"{}.rs\");\n", model.name));
+        .map(|model| format!("include!(\"{}.rs\");\n", model.name()));
     let entries = models.iter().map(|model| {
-        let joints = model.joints.len();
-        format!(" ({}, {}, {joints})", model.type_name(), model.name)
+        let joints = model.joints().len();
+        format!(" ({}, {}, {joints})", model.type_name(), model.name())
     });
     format!(
         "{}\n/// Expands to `callback! {{ (Type, name, joints) … }}` over every arm.\n\
@@ -147,7 +147,7 @@ fn compile_into_out_dir(tables: &[impl AsRef<Path>]) -> Result<Vec<Model>, Error
         for sentence in generated.warnings() {
             warn(&format!("{}: {sentence}", path.display()));
         }
-        write_to_out_dir(&model.name, &generated.source())?;
+        write_to_out_dir(model.name(), &generated.source())?;
     }
     Ok(models.into_iter().map(|(_, model)| model).collect())
 }

@@ -54,7 +54,7 @@ pub(super) fn choose(model: &Model, yardstick: &Yardstick) -> Choices {
 
 /// The order of the task's rows in which H's are longest first.
 fn longest_first(model: &Model, choices: Choices, yardstick: &Yardstick) -> [usize; 6] {
-    if choices.singular || model.task.len() == 1 {
+    if choices.singular || model.task().len() == 1 {
         return choices.order;
     }
     let graph = Graph::new();

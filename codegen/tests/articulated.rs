@@ -33,7 +33,7 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
 
 fn configurations(model: &Model) -> Vec<Vec<f64>> {
     let q = |k: usize| {
-        let joints = model.joints.iter().enumerate();
+        let joints = model.joints().iter().enumerate();
         joints.map(move |(i, joint)| {
             let x = ((k * 7 + i * 3) as f64 * 0.618_033_988_749_894_9).fract() - 0.5;
             match joint.kind {

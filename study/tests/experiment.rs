@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use ulna::{SerialChain, Status};
-use ulna_generated::Ssrms;
+use ulna_generated::{Planar2r, Ssrms};
 use ulna_study::Scenario;
 use ulna_study::experiment::{Case, ExperimentError, Laboratory, Method, Study};
 use ulna_study::scenario::KnownArm;
@@ -232,7 +232,7 @@ fn the_papers_rated_torque_is_out_of_reach() {
         ),
     ]);
     let laboratory = Laboratory::new(&Ssrms, &scenario).unwrap();
-    let study = laboratory.study(&scenario.experiments[1], 10.0).unwrap();
+    let study = laboratory.study(&scenario.experiments()[1], 10.0).unwrap();
     let case = study.case(Method::PerJoint);
     assert!(
         matches!(case.search, Err(SearchError::Empty { joint: 3, .. })),
@@ -291,30 +291,57 @@ fn series_show_the_lock_from_both_sides() {
 
 #[test]
 fn the_generic_path_finds_the_same() {
-    let mut scenario = scenario(&[
-        ("cycle = 0.01", "cycle = 0.5"),
-        ("times = [3.0, 10.0, 18.0]", "times = [10.0]"),
-    ]);
-    scenario.experiments.truncate(1);
+    let scenario = scenario(&[("cycle = 0.01", "cycle = 0.5")]);
+    let experiment = &scenario.experiments()[0];
     let chain: SerialChain<7> = Ssrms::CHAIN;
+    let generated = Laboratory::new(&Ssrms, &scenario).unwrap();
+    let generic = Laboratory::new(&chain, &scenario).unwrap();
     let [generated, generic] = [
-        Laboratory::new(&Ssrms, &scenario).unwrap().run().unwrap(),
-        Laboratory::new(&chain, &scenario).unwrap().run().unwrap(),
+        generated.study(experiment, 10.0).unwrap(),
+        generic.study(experiment, 10.0).unwrap(),
     ];
-    for (a, b) in generated.iter().zip(&generic) {
-        for (a, b) in a.cases.iter().zip(&b.cases) {
-            let pairs = a.impact_after.iter().zip(&b.impact_after);
-            // The generic gradient comes from differences.
-            let worst = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            assert!(worst < 1e-4, "{:?}: {worst}", a.method);
-        }
+    for (a, b) in generated.cases.iter().zip(&generic.cases) {
+        let pairs = a.impact_after.iter().zip(&b.impact_after);
+        // The generic gradient comes from differences.
+        let worst = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(worst < 1e-4, "{:?}: {worst}", a.method);
+    }
+}
+
+/// Its rated torques are no limits of this arm.
+#[test]
+fn an_experiment_of_another_arm_is_refused() {
+    const PLANAR: &str = r#"
+        name = "planar"
+        arm = "planar_2r"
+        angle_unit = "deg"
+        motion = { kind = "joint", angles = "q", start = [10, 60], goal = [20, 80], duration = 2, blend = 0.5 }
+        failure = { joints = [2], times = [1.0] }
+        control.cycle = 0.1
+        search = { start = 0, step = 1e-3 }
+        experiment = [{ section = "a", force = [1, 0, 0], rated_torque = 40 }]
+    "#;
+    let planar = KnownArm {
+        name: "planar_2r",
+        joints: &Planar2r::CHAIN.joints,
+    };
+    let planar = Scenario::parse(PLANAR, "planar.toml", Path::new(""), &[planar]).unwrap();
+    let paper_like = scenario(&[]);
+    let laboratory = Laboratory::new(&Ssrms, &paper_like).unwrap();
+    let refusals = [
+        laboratory.study(&planar.experiments()[0], 1.0).unwrap_err(),
+        laboratory.truth(&planar.experiments()[0], 1.0).unwrap_err(),
+    ];
+    for refusal in refusals {
+        let expected = "the experiment is for 2 joints, the arm has 7";
+        assert_eq!(refusal.to_string(), expected);
     }
 }
 
 #[test]
 fn another_arm_and_an_impossible_motion_are_refused() {
     let paper_like = scenario(&[]);
-    let planar = ulna_generated::Planar2r;
+    let planar = Planar2r;
     let refusal = Laboratory::new(&planar, &paper_like).unwrap_err();
     assert_eq!(
         refusal.to_string(),
@@ -336,7 +363,7 @@ fn another_arm_and_an_impossible_motion_are_refused() {
 fn the_simulated_lock_balances_and_tends_to_the_ideal_one() {
     let scenario = scenario(&[]);
     let laboratory = Laboratory::new(&Ssrms, &scenario).unwrap();
-    let truth = laboratory.truth(&scenario.experiments[0], 10.0).unwrap();
+    let truth = laboratory.truth(&scenario.experiments()[0], 10.0).unwrap();
     let mut last = f64::INFINITY;
     for point in &truth.convergence {
         assert!(

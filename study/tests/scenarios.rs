@@ -19,14 +19,19 @@ fn known() -> Vec<KnownArm> {
             let model = Model::load(format!("../arms/{name}.toml")).unwrap();
             KnownArm {
                 name,
-                joints: model.joints.leak(),
+                joints: model.description().joints.leak(),
             }
         })
         .collect()
 }
 
 fn parse(text: &str) -> Result<Scenario, ScenarioErrors> {
-    Scenario::parse(text, "scenarios/bad.toml", Path::new("scenarios"), &known())
+    Scenario::parse(
+        text,
+        "scenarios/bad.toml",
+        Path::new("../scenarios"),
+        &known(),
+    )
 }
 
 /// The scenario with the first of each `from` replaced by `to`.
@@ -53,32 +58,32 @@ fn messages(edits: &[(&str, &str)]) -> String {
 #[test]
 fn the_paper_like_scenario_is_that_of_the_notes() {
     let scenario = Scenario::load("../scenarios/paper_like.toml", &known()).unwrap();
-    assert_eq!(scenario.name, "paper_like");
-    assert_eq!(scenario.arm.name(), "ssrms");
-    assert_eq!(scenario.failed_joints, [1]);
-    assert_eq!(scenario.failure_times, [3.0, 10.0, 18.0]);
+    assert_eq!(scenario.name(), "paper_like");
+    assert_eq!(scenario.arm().name(), "ssrms");
+    assert_eq!(scenario.failed_joints(), [1]);
+    assert_eq!(scenario.failure_times(), [3.0, 10.0, 18.0]);
     // q = the DH angles minus theta of the table's rows.
     let quarter = std::f64::consts::FRAC_PI_2;
     let theta = [0.0, quarter, 0.0, 0.0, 0.0, -quarter, 0.0];
     let start = [0.0, 0.601, -0.895, -2.108, -1.398, 1.437, 0.0];
     let travel = [1.474, 0.689, -4.400, 0.273, -3.284, 0.820, 0.0];
-    let MotionPath::Joint(goal) = &scenario.motion.path else {
+    let MotionPath::Joint(goal) = &scenario.motion().path() else {
         panic!("a joint motion");
     };
     for i in 0..7 {
-        assert!((scenario.motion.start[i] - (start[i] - theta[i])).abs() < 1e-15);
-        assert!((goal[i] - scenario.motion.start[i] - travel[i]).abs() < 1e-12);
+        assert!((scenario.motion().start()[i] - (start[i] - theta[i])).abs() < 1e-15);
+        assert!((goal[i] - scenario.motion().start()[i] - travel[i]).abs() < 1e-12);
     }
-    let constant = &scenario.experiments[0];
-    assert_eq!(constant.section, "5.2");
-    assert_eq!(constant.rated_torque, None);
+    let constant = &scenario.experiments()[0];
+    assert_eq!(constant.section(), "5.2");
+    assert_eq!(constant.rated_torque(), None);
     let wrench = Vector6::new(20.0, 20.0, 20.0, 0.0, 0.0, 0.0);
     assert_eq!(
-        constant.force,
+        *constant.force(),
         ToolForce::constant(&wrench).without_moment()
     );
-    assert_eq!(constant.references.len(), 3);
-    assert_eq!(constant.references[0].before[1], Some(66.72));
+    assert_eq!(constant.references().len(), 3);
+    assert_eq!(constant.references()[0].before()[1], Some(66.72));
 }
 
 trait WithoutMoment {
@@ -95,7 +100,7 @@ impl WithoutMoment for ToolForce {
 #[test]
 fn every_shipped_scenario_is_sound() {
     let mut count = 0;
-    for entry in std::fs::read_dir("scenarios").unwrap() {
+    for entry in std::fs::read_dir("../scenarios").unwrap() {
         let path = entry.unwrap().path();
         if let Err(errors) = Scenario::load(&path, &known()) {
             panic!("{errors}");
@@ -107,10 +112,10 @@ fn every_shipped_scenario_is_sound() {
 
 #[test]
 fn positions_are_read_in_either_unit_from_either_zero() {
-    let plan = |edits: &[(&str, &str)]| parse(&edited(edits)).unwrap().motion;
+    let plan = |edits: &[(&str, &str)]| parse(&edited(edits)).unwrap().motion().clone();
     let radians = plan(&[]);
     let from_q = plan(&[("angles = \"dh\"", "angles = \"q\"")]);
-    assert!((from_q.start[1] - 0.601).abs() < 1e-15 && (radians.start[1] - 0.601).abs() > 1.0);
+    assert!((from_q.start()[1] - 0.601).abs() < 1e-15 && (radians.start()[1] - 0.601).abs() > 1.0);
     let degrees = plan(&[
         ("angle_unit = \"rad\"", "angle_unit = \"deg\""),
         ("angles = \"dh\"", "angles = \"q\""),
@@ -121,9 +126,9 @@ fn positions_are_read_in_either_unit_from_either_zero() {
         ),
     ]);
     let quarter = std::f64::consts::FRAC_PI_2;
-    assert!((degrees.start[0] - quarter).abs() < 1e-15);
-    assert_eq!(degrees.max_velocity, [quarter; 7]);
-    assert_eq!(degrees.max_acceleration, [f64::INFINITY; 7]);
+    assert!((degrees.start()[0] - quarter).abs() < 1e-15);
+    assert_eq!(degrees.max_velocity(), [quarter; 7]);
+    assert_eq!(degrees.max_acceleration(), [f64::INFINITY; 7]);
 }
 
 #[test]
@@ -131,22 +136,35 @@ fn a_table_stands_in_for_a_known_arm() {
     let text = edited(&[("arm = \"ssrms\"", "arm = \"../arms/ssrms.toml\"")]);
     let by_table = parse(&text).unwrap();
     let by_name = parse(PAPER_LIKE).unwrap();
-    let ScenarioArm::Table { path, model } = &by_table.arm else {
+    let ScenarioArm::Table { path, model } = by_table.arm() else {
         panic!("a table");
     };
-    assert_eq!(path, Path::new("scenarios/../arms/ssrms.toml"));
-    assert_eq!(model.name, "ssrms");
-    assert_eq!(by_table.motion, by_name.motion);
+    assert_eq!(path, Path::new("../scenarios/../arms/ssrms.toml"));
+    assert_eq!(model.name(), "ssrms");
+    assert_eq!(by_table.motion(), by_name.motion());
     let chain = SerialChain::<7>::try_from(model.as_ref()).unwrap();
-    let motion = by_table.motion.plan(&chain, 0.05).unwrap();
+    let motion = by_table.motion().plan(&chain, 0.05).unwrap();
     assert_eq!(motion.duration(), 20.0);
     let other =
         SerialChain::<6>::try_from(&Model::load("../arms/oblique_6.toml").unwrap()).unwrap();
-    let refusal = by_table.motion.plan(&other, 0.05).unwrap_err();
+    let refusal = by_table.motion().plan(&other, 0.05).unwrap_err();
     assert_eq!(
         refusal.to_string(),
         "the motion is for 7 joints, the arm has 6"
     );
+}
+
+#[test]
+fn a_campaign_is_changed_within_its_bounds() {
+    let scenario = parse(PAPER_LIKE).unwrap();
+    let changed = scenario.clone().with_seed(7).with_cases(1).unwrap();
+    let campaign = changed.campaign();
+    assert_eq!((campaign.seed(), campaign.cases()), (7, 1));
+    for cases in [0, 1_000_001] {
+        let refusal = scenario.clone().with_cases(cases).unwrap_err();
+        let expected = format!("a campaign of {cases} cases: it must have 1 to 1000000");
+        assert_eq!(refusal.to_string(), expected);
+    }
 }
 
 #[test]
@@ -156,7 +174,7 @@ fn forces_are_polynomials_of_time() {
         "force = [[0, 4, 0.2], 5, []]\nmoment = [0, 0, [1, -1]]",
     )]);
     let scenario = parse(&text).unwrap();
-    let force = &scenario.experiments[0].force;
+    let force = scenario.experiments()[0].force();
     assert_eq!(force.at(10.0), Vector6::new(60.0, 5.0, 0.0, 0.0, 0.0, -9.0));
     assert!(!force.is_constant());
 }
@@ -246,7 +264,7 @@ fn sizes() {
         ("failure_times = 20", "failure_times = 1_000"),
     ];
     let scenario = parse(&edited(&most)).unwrap_or_else(|errors| panic!("{errors}"));
-    assert_eq!(scenario.experiments.len(), 33);
+    assert_eq!(scenario.experiments().len(), 33);
     let slow = [
         ("duration = 20.0", "duration = 1e5"),
         ("cycle = 0.01", "cycle = 10"),
@@ -303,6 +321,8 @@ fn arms() {
         ("arm = \"ssrms\"", "arm = \"../tests/bad_arm.toml\""),
         ("arm = \"ssrms\"", "arm = \"oblique_6\""),
     ]);
+    // As from the repository's root.
+    let messages = messages.replace("../scenarios/", "scenarios/");
     insta::assert_snapshot!(messages);
 }
 
@@ -328,7 +348,7 @@ fn absent_files() {
     let errors = Scenario::load("../scenarios/paper_lik.toml", &known()).unwrap_err();
     let text = errors.to_string();
     assert!(
-        text.contains("did you mean scenarios/paper_like.toml?"),
+        text.contains("did you mean ../scenarios/paper_like.toml?"),
         "{text}"
     );
 }

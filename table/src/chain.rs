@@ -20,18 +20,18 @@ impl<const N: usize> TryFrom<&Model> for SerialChain<N> {
     type Error = JointCountError;
 
     fn try_from(model: &Model) -> Result<Self, JointCountError> {
-        let joints =
-            <[Joint; N]>::try_from(model.joints.as_slice()).map_err(|_| JointCountError {
-                arm: model.name.clone(),
-                joints: model.joints.len(),
-                expected: N,
-            })?;
+        let joints = model.joints();
+        let joints = <[Joint; N]>::try_from(joints).map_err(|_| JointCountError {
+            arm: model.name().to_owned(),
+            joints: joints.len(),
+            expected: N,
+        })?;
         Ok(Self {
             joints,
-            base: model.base,
-            tool: model.tool,
-            gravity: model.gravity,
-            task: model.task,
+            base: *model.base(),
+            tool: *model.tool(),
+            gravity: model.gravity(),
+            task: model.task(),
         })
     }
 }

@@ -9,8 +9,9 @@ pub mod toml_reader;
 
 pub use chain::JointCountError;
 pub use diagnostics::TableErrors;
-pub use model::Model;
 #[doc(hidden)]
 pub use model::RATED_TORQUE;
+pub use model::{Description, Model};
 #[doc(hidden)]
 pub use table::AngleUnit;
+pub use table::Convention;

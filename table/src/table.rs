@@ -7,8 +7,18 @@ use crate::diagnostics::{Diagnostic, Sink};
 use crate::toml_reader::{self, Fields, Located, Value};
 use ulna::{JointKind, TaskRow};
 
+/// Who wrote a table's text. A program gives rotations as matrices and angles in radians, and has no file to mend.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Author {
+    /// Somebody with an editor.
+    Person,
+    /// [`Model::new`](crate::Model::new), for a program.
+    Program,
+}
+
 /// An arm's table, field by field.
 pub(crate) struct ArmTable {
+    pub(crate) author: Author,
     pub(crate) name: Option<Located<String>>,
     pub(crate) convention: Option<Convention>,
     pub(crate) angle_unit: Option<AngleUnit>,
@@ -23,8 +33,8 @@ pub(crate) struct ArmTable {
 pub(crate) type Vector = [Option<Located<f64>>; 3];
 
 /// Which of the two Denavit–Hartenberg conventions the rows follow.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Convention {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Convention {
     /// Craig: `T_i = Rx(alpha) Tx(a) Rz(theta) Tz(d)`.
     Modified,
     /// Denavit and Hartenberg: `T_i = Rz(theta) Tz(d) Tx(a) Rx(alpha)`.
@@ -55,7 +65,15 @@ impl AngleUnit {
 /// `[base]` or `[tool]`.
 pub(crate) struct PlacementTable {
     pub(crate) xyz: Option<Vector>,
-    pub(crate) rpy: Option<Vector>,
+    pub(crate) turn: Option<Turn>,
+}
+
+/// How a placement is turned.
+pub(crate) enum Turn {
+    /// About fixed x, y, z, in this order.
+    RollPitchYaw(Vector),
+    /// By the rows of the rotation matrix.
+    Matrix(Box<Located<[Vector; 3]>>),
 }
 
 /// One `[[joint]]`.
@@ -89,8 +107,9 @@ impl ArmTable {
     pub(crate) const MAX_JOINTS: usize = 32;
 
     /// Reads a table. `None` if `text` is no TOML; everything that is wrong goes to `sink`.
-    pub(crate) fn read(text: &str, sink: &Sink) -> Option<Self> {
+    pub(crate) fn read(text: &str, author: Author, sink: &Sink) -> Option<Self> {
         toml_reader::read(text, sink, |fields| Self {
+            author,
             name: fields
                 .required("name", "name = \"my_arm\"")
                 .and_then(Value::string)
@@ -119,8 +138,8 @@ impl ArmTable {
                 .required("task", "[task]` and below it `rows = \"position\"")
                 .and_then(|value| value.table("[task]", |task| read_rows(task, sink)))
                 .flatten(),
-            base: read_placement(fields, "base", "[base]"),
-            tool: read_placement(fields, "tool", "[tool]"),
+            base: read_placement(fields, author, "base", "[base]"),
+            tool: read_placement(fields, author, "tool", "[tool]"),
             joints: fields
                 .required("joint", "[[joint]]` once for each joint, base first")
                 .and_then(|joints| read_joints(joints, sink)),
@@ -164,6 +183,7 @@ fn read_rows(task: &mut Fields<'_>, sink: &Sink) -> Option<Located<Vec<TaskRow>>
 
 fn read_placement(
     fields: &mut Fields<'_>,
+    author: Author,
     key: &'static str,
     owner: &str,
 ) -> Option<PlacementTable> {
@@ -176,10 +196,26 @@ fn read_placement(
             xyz: placement
                 .optional("xyz", "xyz = [0.0, 0.0, 0.0]")
                 .and_then(Value::numbers),
-            rpy: placement
-                .optional("rpy", "rpy = [0.0, 0.0, 0.0]")
-                .and_then(Value::numbers),
+            turn: match author {
+                Author::Person => placement
+                    .optional("rpy", "rpy = [0.0, 0.0, 0.0]")
+                    .and_then(Value::numbers)
+                    .map(Turn::RollPitchYaw),
+                Author::Program => placement
+                    .optional("rotation", "rotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]")
+                    .and_then(read_rotation)
+                    .map(|matrix| Turn::Matrix(matrix.into())),
+            },
         })
+}
+
+/// Three rows of three numbers: [`Model::new`](crate::Model::new) writes no other.
+fn read_rotation(rotation: Value<'_>) -> Option<Located<[Vector; 3]>> {
+    let place = rotation.location();
+    let rows = rotation.items("an array of three rows")?;
+    let rows: Option<Vec<Vector>> = rows.into_iter().map(Value::numbers).collect();
+    let rows = rows?.try_into().ok()?;
+    Some(place.map(|()| rows))
 }
 
 fn read_joints(joints: Value<'_>, sink: &Sink) -> Option<Vec<JointTable>> {

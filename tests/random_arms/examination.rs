@@ -47,7 +47,7 @@ pub(crate) struct Failure {
 pub(crate) fn examine(arm: &Arm, samples: usize) -> Outcome {
     macro_rules! dispatch {
         ($model:ident: $($joints:literal)+) => {
-            match $model.joints.len() {
+            match $model.joints().len() {
                 $($joints => examine_model::<$joints>(arm, &$model, samples),)+
                 joints => unreachable!("no strategy makes {joints} joints"),
             }

@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use ulna::Arm;
 use ulna_study::Scenario;
 use ulna_study::experiment::Campaign;
+use ulna_study::scenario::CampaignSettings;
 
 use crate::arms::{ForArm, GENERATED, with_arm};
 use crate::figures::{self, HeatMap};
@@ -37,7 +38,7 @@ pub(crate) struct Arguments {
     /// The scenario (TOML); its first experiment's rated torques are kept
     scenario: PathBuf,
     /// How many cases; without it as many as the scenario says
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(CampaignSettings::CASES))]
     cases: Option<u64>,
     /// The seed of all random numbers; without it the scenario's
     #[arg(long, value_name = "SEED")]
@@ -52,8 +53,12 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let mut scenario = Scenario::load(&arguments.scenario, GENERATED)?;
-    scenario.campaign.cases = arguments.cases.unwrap_or(scenario.campaign.cases);
-    scenario.campaign.seed = arguments.seed.unwrap_or(scenario.campaign.seed);
+    if let Some(cases) = arguments.cases {
+        scenario = scenario.with_cases(cases)?;
+    }
+    if let Some(seed) = arguments.seed {
+        scenario = scenario.with_seed(seed);
+    }
     output::check_folder(&arguments.output)?;
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
@@ -65,9 +70,9 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         arguments,
     };
     // Held until the figures are there too.
-    let (rows, _lock) = pool.install(|| with_arm(&scenario.arm, work))??;
+    let (rows, _lock) = pool.install(|| with_arm(scenario.arm(), work))??;
 
-    let map = HeatMap::new(&rows, scenario.arm.joints().len());
+    let map = HeatMap::new(&rows, scenario.arm().joints().len());
     writeln!(out, "{}", map.summary(&scenario))?;
     let mut files = Files::default();
     files.add("figures/campaign.svg", figures::svg(&map)?);
@@ -95,7 +100,7 @@ impl ForArm for Work<'_> {
         fs::create_dir_all(folder)
             .with_context(|| format!("cannot make the folder {}", folder.display()))?;
         let lock = FolderLock::take(folder)?;
-        let cases = self.scenario.campaign.cases;
+        let cases = self.scenario.campaign().cases();
         let identity = Identity::of(self.scenario);
         let make = |index| Row::of(&campaign.case(index));
         let mut file = CampaignFile::open(folder, cases, &identity, make)?;

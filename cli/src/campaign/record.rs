@@ -7,7 +7,7 @@ use anyhow::{Context, bail};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use ulna_study::Scenario;
-use ulna_study::scenario::{CampaignSettings, ScenarioArm};
+use ulna_study::scenario::{Experiment, ScenarioArm};
 
 use crate::output::{refuse_special, write_whole};
 
@@ -23,21 +23,23 @@ pub(super) struct Identity {
 impl Identity {
     /// That of a scenario's campaign. What has no part in a row is left out: the number of cases, texts, figures.
     pub(super) fn of(scenario: &Scenario) -> Self {
-        let arm = match &scenario.arm {
+        let arm = match scenario.arm() {
             ScenarioArm::Known(arm) => format!("{arm:?}"),
-            ScenarioArm::Table { model, .. } => model.table_hash.clone(),
+            ScenarioArm::Table { model, .. } => model.table_hash().to_owned(),
         };
-        let variation = CampaignSettings {
-            cases: 0,
-            seed: 0,
-            ..scenario.campaign
-        };
-        let first = scenario.experiments.first();
-        let rated = first.map(|experiment| &experiment.rated_torque);
-        let content = format!("{arm}\n{:?}\n{variation:?}\n{rated:?}", scenario.motion);
+        let campaign = scenario.campaign();
+        let variation = (
+            campaign.failure_times(),
+            campaign.start_spread(),
+            campaign.goal_spread(),
+            campaign.force_spread(),
+        );
+        let first = scenario.experiments().first();
+        let rated = first.map(Experiment::rated_torque);
+        let content = format!("{arm}\n{:?}\n{variation:?}\n{rated:?}", scenario.motion());
         Self {
             program: concat!("ulna ", env!("CARGO_PKG_VERSION")).to_owned(),
-            seed: scenario.campaign.seed,
+            seed: campaign.seed(),
             scenario: hex(Sha256::new_with_prefix(content)),
         }
     }

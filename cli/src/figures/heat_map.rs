@@ -58,10 +58,10 @@ impl<'r> HeatMap<'r> {
         let mut lines = vec![
             format!(
                 "{}: arm {}, {} cases, {done} with an outcome{without}; seed {}",
-                scenario.name,
-                scenario.arm.name(),
+                scenario.name(),
+                scenario.arm().name(),
                 self.rows.len(),
-                scenario.campaign.seed
+                scenario.campaign().seed()
             ),
             "median impact, norm over the healthy joints, N m".to_owned(),
             format!(

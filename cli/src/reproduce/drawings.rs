@@ -20,12 +20,12 @@ pub(super) fn add(
     findings: &Findings,
 ) -> anyhow::Result<()> {
     let kinds: Vec<_> = scenario
-        .arm
+        .arm()
         .joints()
         .iter()
         .map(|joint| joint.kind)
         .collect();
-    let of_experiments = scenario.experiments.par_iter().map(|experiment| {
+    let of_experiments = scenario.experiments().par_iter().map(|experiment| {
         let studies = findings.of_section(experiment);
         draw(experiment, &studies, &kinds)
     });
@@ -47,9 +47,9 @@ fn draw(
     kinds: &[JointKind],
 ) -> anyhow::Result<Vec<Drawing>> {
     let mut drawings = Vec::new();
-    for figure in &experiment.figures {
-        let name = figure.name.clone();
-        match &figure.kind {
+    for figure in experiment.figures() {
+        let name = figure.name().to_owned();
+        match figure.kind() {
             FigureKind::Torque { joints, time } => {
                 let study = studies.iter().find(|study| study.failure_time == *time);
                 if let Some(study) = study {
@@ -64,7 +64,7 @@ fn draw(
                 }
             }
             FigureKind::Impact => {
-                let with_force = !experiment.force.is_constant();
+                let with_force = !experiment.force().is_constant();
                 drawings.push(both(
                     name,
                     &Impacts {
@@ -121,7 +121,7 @@ fn strongest(truth: &Truth) -> Vec<usize> {
 
 /// What the frontier's files are called.
 pub(super) fn frontier_name(experiment: &Experiment) -> String {
-    format!("frontier-{}", experiment.section)
+    format!("frontier-{}", experiment.section())
 }
 
 fn both(name: String, figure: &impl Figure) -> anyhow::Result<Drawing> {

@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         )?,
     };
     output::check_folder(&arguments.output)?;
-    let findings = with_arm(&scenario.arm, Findings::of(&scenario))??;
+    let findings = with_arm(scenario.arm(), Findings::of(&scenario))??;
     table::write(&scenario, &findings, out)?;
     out.flush()?;
     let mut files = Files::default();
@@ -89,7 +89,7 @@ impl Findings {
     fn of_section<'f>(&'f self, experiment: &Experiment) -> Vec<&'f Study> {
         let studies = self.studies.iter();
         studies
-            .filter(|study| study.section == experiment.section)
+            .filter(|study| study.section == experiment.section())
             .collect()
     }
 
@@ -105,11 +105,7 @@ impl ForArm for Work<'_> {
     type Output = Result<Findings, ExperimentError>;
 
     fn run<A: Arm<N> + Sync, const N: usize>(self, arm: &A) -> Self::Output {
-        let Scenario {
-            experiments,
-            failure_times,
-            ..
-        } = self.0;
+        let (experiments, failure_times) = (self.0.experiments(), self.0.failure_times());
         let laboratory = Laboratory::new(arm, self.0)?;
         let pairs = experiments.iter().flat_map(|experiment| {
             let times = failure_times.iter();

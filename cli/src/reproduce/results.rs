@@ -65,8 +65,8 @@ pub(super) fn add(
     let cases = studies.iter().flat_map(|study| &study.cases);
     let exact = cases.clone().filter(|case| !case.method.is_stepwise());
     let results = Results {
-        arm: scenario.arm.name(),
-        scenario: &scenario.name,
+        arm: scenario.arm().name(),
+        scenario: scenario.name(),
         cases: exact.clone().map(result).collect(),
     };
     let mut json = serde_json::to_vec_pretty(&results)?;

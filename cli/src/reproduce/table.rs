@@ -25,14 +25,14 @@ pub(super) fn write(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     writeln!(out, "{}", heading(scenario))?;
-    for experiment in &scenario.experiments {
-        writeln!(out, "\n{} {}", experiment.section, experiment.title)?;
+    for experiment in scenario.experiments() {
+        writeln!(out, "\n{} {}", experiment.section(), experiment.title())?;
         let studies = findings.of_section(experiment);
         for study in &studies {
             let reference = reference_at(experiment, study.failure_time);
             // Some references have coefficients alone.
             let reference = reference.filter(|reference| {
-                let mut figures = reference.before.iter().chain(&reference.after);
+                let mut figures = reference.before().iter().chain(reference.after());
                 figures.any(Option::is_some)
             });
             writeln!(
@@ -52,8 +52,8 @@ pub(super) fn write(
         writeln!(out, "\ncoefficients k_d of Eq. 16, in 1e{exponent}")?;
         writeln!(out, "{}", coefficients(experiment, &studies, exponent))?;
     }
-    if let Some(experiment) = scenario.experiments.first() {
-        writeln!(out, "\nsearches for {}", experiment.section)?;
+    if let Some(experiment) = scenario.experiments().first() {
+        writeln!(out, "\nsearches for {}", experiment.section())?;
         writeln!(out, "{}", searches(&findings.of_section(experiment)))?;
     }
     if let Ok(truths) = &findings.truths {
@@ -67,14 +67,14 @@ pub(super) fn write(
 }
 
 fn heading(scenario: &Scenario) -> String {
-    let description = match scenario.description.as_str() {
+    let description = match scenario.description() {
         "" => String::new(),
         description => format!(" ({description})"),
     };
     format!(
         "{}: arm {}, {}{description}",
-        scenario.name,
-        scenario.arm.name(),
+        scenario.name(),
+        scenario.arm().name(),
         what_locks(scenario)
     )
 }
@@ -82,14 +82,14 @@ fn heading(scenario: &Scenario) -> String {
 /// The reference for a failure time.
 pub(super) fn reference_at(experiment: &Experiment, time: f64) -> Option<&Reference> {
     experiment
-        .references
+        .references()
         .iter()
-        .find(|reference| reference.time == time)
+        .find(|reference| reference.time() == time)
 }
 
 fn beside(reference: Option<&Reference>) -> String {
     reference.map_or_else(String::new, |reference| {
-        format!("; beside it: {}", reference.source)
+        format!("; beside it: {}", reference.source())
     })
 }
 
@@ -129,7 +129,7 @@ fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) ->
     ));
     let before = &study.case(Method::PerJoint).impact_before;
     for (joint, impact) in before.iter().enumerate() {
-        let locked = if scenario.failed_joints.contains(&joint) {
+        let locked = if scenario.failed_joints().contains(&joint) {
             " (locks)"
         } else {
             ""
@@ -138,8 +138,8 @@ fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) ->
             format!("{}{locked}", joint + 1),
             significant(*impact),
             [
-                beside(|reference, joint| reference.before[joint], joint),
-                beside(|reference, joint| reference.after[joint], joint),
+                beside(|reference, joint| reference.before()[joint], joint),
+                beside(|reference, joint| reference.after()[joint], joint),
             ],
             per_method(&|case| significant(case.impact_after[joint])),
         ));
@@ -210,11 +210,15 @@ fn coefficients(experiment: &Experiment, studies: &[&Study], exponent: i32) -> S
             table.add_row([time.clone(), title.to_owned()].into_iter().chain(cells));
         }
         if let Some(reference) = reference_at(experiment, study.failure_time)
-            && reference.coefficients.iter().any(Option::is_some)
+            && reference.coefficients().iter().any(Option::is_some)
         {
-            let values = reference.coefficients.iter();
+            let values = reference.coefficients().iter();
             let cells = values.map(|value| value.map_or_else(String::new, cell));
-            table.add_row([time, reference.source.clone()].into_iter().chain(cells));
+            table.add_row(
+                [time, reference.source().to_owned()]
+                    .into_iter()
+                    .chain(cells),
+            );
         }
     }
     plain(table, &[1])

@@ -17,8 +17,8 @@ pub(super) fn joints_named(joints: &[usize]) -> String {
 
 /// "joint 2 locks" or "joints 2 and 4 lock".
 pub(super) fn what_locks(scenario: &Scenario) -> String {
-    let joints = joints_named(&scenario.failed_joints);
-    match scenario.failed_joints[..] {
+    let joints = joints_named(scenario.failed_joints());
+    match scenario.failed_joints() {
         [_] => format!("{joints} locks"),
         _ => format!("{joints} lock"),
     }

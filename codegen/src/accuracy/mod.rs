@@ -93,7 +93,7 @@ impl Yardstick {
             near_singular: states.len() - RANDOM,
             states,
             singular_everywhere,
-            length: length(model, &vec![0.0; model.joints.len()]),
+            length: length(model, &vec![0.0; model.joints().len()]),
         }
     }
 
@@ -199,16 +199,16 @@ impl Yardstick {
 
 /// The condition number of w_D at `q`, as `ulna::proof::condition` has it, from ∂ln w_D/∂J (by rows) and ∂ln w_D/∂M.
 fn condition(model: &Model, q: &[f64], sensitivity: &[f64]) -> f64 {
-    let joints = model.joints.len();
-    let (by_jacobian, by_mass) = sensitivity.split_at(model.task.len() * joints);
+    let joints = model.joints().len();
+    let (by_jacobian, by_mass) = sensitivity.split_at(model.task().len() * joints);
     let length = length(model, q);
-    let rows = model.task.iter().zip(by_jacobian.chunks(joints));
+    let rows = model.task().iter().zip(by_jacobian.chunks(joints));
     let of_rows = rows.map(|(row, weights)| {
         let size = if row < TaskRow::Rx { length } else { 1.0 };
         weights.iter().map(|weight| weight.abs()).sum::<f64>() * size
     });
     let sizes: Vec<f64> = (0..joints)
-        .map(|i| carried_inertia(&model.joints, i, |joint| q[joint]).sqrt())
+        .map(|i| carried_inertia(model.joints(), i, |joint| q[joint]).sqrt())
         .collect();
     let of_masses = by_mass.chunks(joints).zip(&sizes).map(|(row, size)| {
         let row = row.iter().zip(&sizes);
@@ -220,12 +220,12 @@ fn condition(model: &Model, q: &[f64], sensitivity: &[f64]) -> f64 {
 
 /// `SerialChain::length` of a chain whose number of joints is known at run time.
 fn length(model: &Model, q: &[f64]) -> f64 {
-    ulna::arm::singular::length(&model.joints, &model.tool, q)
+    ulna::arm::singular::length(model.joints(), model.tool(), q)
 }
 
 /// The same of the volume up to which w_D counts as 0.
 fn least_volume_squared(model: &Model, q: &[f64]) -> f64 {
-    ulna::arm::singular::least_volume_squared(&model.joints, &model.tool, model.task, q)
+    ulna::arm::singular::least_volume_squared(model.joints(), model.tool(), model.task(), q)
 }
 
 /// An error to one digit, not less than it is.

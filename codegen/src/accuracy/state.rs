@@ -83,7 +83,7 @@ pub fn read<R: Scalar>(input: Input, angles: &[AngleSum], q: &[f64], others: [&[
 impl State {
     pub(super) fn random(model: &Model, random: &mut SplitMix64) -> Self {
         let mut vector = || -> Vec<f64> {
-            let joints = model.joints.iter();
+            let joints = model.joints().iter();
             joints.map(|_| random.symmetric()).collect()
         };
         let range = |(joint, x): (&ulna::Joint, f64)| match joint.kind {
@@ -91,7 +91,7 @@ impl State {
             JointKind::Prismatic => x,
         };
         Self {
-            q: model.joints.iter().zip(vector()).map(range).collect(),
+            q: model.joints().iter().zip(vector()).map(range).collect(),
             qd: vector(),
             qdd: vector(),
             tau: vector(),

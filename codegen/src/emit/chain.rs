@@ -9,11 +9,11 @@ use super::literal::literal;
 
 /// `pub const CHAIN: SerialChain<N>`.
 pub(super) fn chain(model: &Model) -> TokenStream {
-    let n = Literal::usize_unsuffixed(model.joints.len());
-    let joints = model.joints.iter().map(joint);
-    let (base, tool) = (placement(&model.base), placement(&model.tool));
-    let gravity = array(&model.gravity);
-    let rows = model.task.iter().map(|row| {
+    let n = Literal::usize_unsuffixed(model.joints().len());
+    let joints = model.joints().iter().map(joint);
+    let (base, tool) = (placement(model.base()), placement(model.tool()));
+    let gravity = array(&model.gravity());
+    let rows = model.task().iter().map(|row| {
         let row = format_ident!("{row:?}");
         quote!(::ulna::TaskRow::#row)
     });

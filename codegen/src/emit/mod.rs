@@ -70,15 +70,15 @@ impl Generated {
 
 fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
     let name = format_ident!("{}", model.type_name());
-    let joints = model.joints.len();
-    let summary = format!(" The arm `{}`: {joints} joints, unrolled.", model.name);
+    let joints = model.joints().len();
+    let summary = format!(" The arm `{}`: {joints} joints, unrolled.", model.name());
     let chain = chain::chain(model);
     let n = Literal::usize_unsuffixed(joints);
     let kernels = compiled
         .methods
         .iter()
         .map(|method| kernel::kernel(method, joints));
-    let proof = format_ident!("{}_proof", model.name);
+    let proof = format_ident!("{}_proof", model.name());
     quote! {
         #[doc = #summary]
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -129,7 +129,7 @@ fn header(model: &Model, source: &str, compiled: &Compiled, counts: &[(Method, C
          // SHA-256 of the table: {hash}\n//\n// Operations",
         version = env!("CARGO_PKG_VERSION"),
         source = on_one_line(source),
-        hash = model.table_hash,
+        hash = model.table_hash(),
     );
     let names = Op::ALL.iter().map(|op| op.row().name);
     let mut line = |name: &str, cells: &[String]| {

@@ -24,9 +24,9 @@ pub struct Body<'g> {
 /// as is round about it) is counted with the link before; likewise the whole inertia tensor behind a prismatic joint.
 /// M and τ stay the same, and many constants become zero. What reaches the base is dropped.
 pub(crate) fn base_parameters<'g>(graph: &'g Graph, model: &Model) -> Vec<Body<'g>> {
-    let links = model.joints.iter().map(|joint| &joint.link);
+    let links = model.joints().iter().map(|joint| &joint.link);
     let mut bodies: Vec<Body<'g>> = links.map(|link| Body::of_link(graph, link)).collect();
-    for (i, joint) in model.joints.iter().enumerate().rev() {
+    for (i, joint) in model.joints().iter().enumerate().rev() {
         let passed = indifferent_part(joint, &bodies[i]);
         bodies[i] = bodies[i].join(passed.scale(graph.constant(-1.0)));
         if i > 0 {

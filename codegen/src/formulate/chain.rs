@@ -80,7 +80,7 @@ impl<'g> Chain<'g> {
         let groups: Vec<Group<'g>> = parallel_runs(model)
             .into_iter()
             .map(|joints| Group {
-                alpha: Turn::by_angle(graph, model.joints[joints.start].alpha),
+                alpha: Turn::by_angle(graph, model.joints()[joints.start].alpha),
                 turn: sum_of_angles(graph, model, joints.clone()),
                 joints,
             })
@@ -89,24 +89,24 @@ impl<'g> Chain<'g> {
             .iter()
             .flat_map(|group| group.joints.clone().map(move |i| (group, i)))
             .map(|(group, i)| ChainJoint {
-                kind: model.joints[i].kind,
+                kind: model.joints()[i].kind,
                 offset: offset(graph, model, group, i),
                 group_from_own: sum_of_angles(graph, model, i + 1..group.joints.end).inverse(),
                 body: bodies[i],
-                link: Body::of_link(graph, &model.joints[i].link),
+                link: Body::of_link(graph, &model.joints()[i].link),
             })
             .collect();
-        let world_from_base = model.base.rotation;
+        let world_from_base = model.base().rotation;
         Self {
             graph,
             joints,
             groups,
-            base: model.base,
-            tool: model.tool,
-            gravity: Vec3::constant(graph, model.gravity).rotate(std::array::from_fn(|j| {
+            base: *model.base(),
+            tool: *model.tool(),
+            gravity: Vec3::constant(graph, model.gravity()).rotate(std::array::from_fn(|j| {
                 std::array::from_fn(|i| world_from_base[i][j])
             })),
-            task: model.task,
+            task: model.task(),
         }
     }
 
@@ -145,7 +145,7 @@ impl<'g> Chain<'g> {
 /// Maximal runs of joints about parallel axes.
 fn parallel_runs(model: &Model) -> Vec<Range<usize>> {
     let mut runs: Vec<Range<usize>> = Vec::new();
-    for (i, joint) in model.joints.iter().enumerate() {
+    for (i, joint) in model.joints().iter().enumerate() {
         match runs.last_mut() {
             Some(run) if joint.alpha.sin_cos() == (0.0, 1.0) => run.end = i + 1,
             _ => runs.push(i..i + 1),
@@ -155,7 +155,7 @@ fn parallel_runs(model: &Model) -> Vec<Range<usize>> {
 }
 
 fn offset<'g>(graph: &'g Graph, model: &Model, group: &Group<'g>, i: usize) -> Vec3<'g> {
-    let joint = &model.joints[i];
+    let joint = &model.joints()[i];
     let along = match joint.kind {
         JointKind::Revolute => graph.constant(joint.d),
         JointKind::Prismatic => graph.constant(joint.d) + graph.input(Input::Q(i)),
@@ -175,10 +175,10 @@ fn sum_of_angles<'g>(graph: &'g Graph, model: &Model, range: Range<usize>) -> Tu
     let mut quarters = 0;
     let mut sum = AngleSum::default();
     for i in range {
-        let (whole, rest) = quarter_turns(model.joints[i].theta);
+        let (whole, rest) = quarter_turns(model.joints()[i].theta);
         quarters += whole;
         sum.offset = sum.offset + rest;
-        if model.joints[i].kind == JointKind::Revolute {
+        if model.joints()[i].kind == JointKind::Revolute {
             sum.joints.push(i);
         }
     }

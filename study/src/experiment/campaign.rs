@@ -3,7 +3,7 @@
 use nalgebra::{SVector, Vector6};
 
 use super::ExperimentError;
-use crate::scenario::{CampaignSettings, MotionPath, Scenario};
+use crate::scenario::Scenario;
 use crate::search::{
     ForcePriority, Objective, Operation, OperationOptions, SearchError, cancel_per_joint,
     least_impact, optimal,
@@ -58,14 +58,14 @@ impl<'a, A: Arm<N>, const N: usize> Campaign<'a, A, N> {
     /// # Errors
     /// When the scenario's own motion cannot be flown, as by another arm.
     pub fn new(arm: &'a A, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
-        scenario.motion.plan(arm, super::KNOT_PERIOD)?;
+        scenario.motion().plan(arm, super::KNOT_PERIOD)?;
         Ok(Self { arm, scenario })
     }
 
     /// The failure times, s: the middles of equal parts of the motion.
     pub fn failure_times(&self) -> Vec<f64> {
-        let count = self.scenario.campaign.failure_times;
-        let part = self.scenario.motion.duration / count as f64;
+        let count = self.scenario.campaign().failure_times();
+        let part = self.scenario.motion().duration() / count as f64;
         (0..count).map(|i| (i as f64 + 0.5) * part).collect()
     }
 
@@ -89,33 +89,14 @@ impl<'a, A: Arm<N>, const N: usize> Campaign<'a, A, N> {
         failed_joint: usize,
         time: f64,
     ) -> Result<CampaignOutcome, ExperimentError> {
-        let CampaignSettings {
-            seed,
-            start_spread,
-            goal_spread,
-            force_spread,
-            ..
-        } = self.scenario.campaign;
-        let mut random = SplitMix64::stream(seed, index);
-        let mut motion = self.scenario.motion.clone();
-        for start in &mut motion.start {
-            *start += start_spread * random.symmetric();
-        }
-        match &mut motion.path {
-            MotionPath::Joint(goal) => {
-                for goal in goal {
-                    *goal += goal_spread * random.symmetric();
-                }
-            }
-            MotionPath::Tool(displacement) => {
-                for row in self.arm.task().iter() {
-                    displacement[row.index()] += goal_spread * random.symmetric();
-                }
-            }
-        }
+        let campaign = self.scenario.campaign();
+        let task = self.arm.task();
+        let mut random = SplitMix64::stream(campaign.seed(), index);
+        let motion = self.scenario.motion();
+        let motion = motion.varied(&campaign, task, &mut random);
         let mut force = Vector6::zeros();
-        for row in self.arm.task().iter() {
-            force[row.index()] = force_spread * random.symmetric();
+        for row in task.iter() {
+            force[row.index()] = campaign.force_spread() * random.symmetric();
         }
         let motion = motion.plan(self.arm, super::KNOT_PERIOD)?;
         let no_joint = ExperimentError::Joint {
@@ -123,10 +104,11 @@ impl<'a, A: Arm<N>, const N: usize> Campaign<'a, A, N> {
             joints: N,
         };
         let joints = LockedJoints::new(&[failed_joint]).ok_or(no_joint)?;
-        let rated = self.scenario.experiments.first();
+        let rated = self.scenario.experiments().first();
+        let no_limit = SVector::repeat(f64::INFINITY);
         let options = OperationOptions {
             sample_period: motion.duration() / Self::SAMPLES,
-            rated_torque: rated.map_or(SVector::repeat(f64::INFINITY), super::rated_torque),
+            rated_torque: rated.map_or(Ok(no_limit), super::rated_torque)?,
             ..OperationOptions::default()
         };
         let failure = Failure { joints, time };

@@ -32,8 +32,8 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
     /// # Errors
     /// When `arm` is not the scenario's, or cannot fly its motion.
     pub fn new(arm: &'a A, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
-        let motion = scenario.motion.plan(arm, KNOT_PERIOD)?;
-        let failed = &scenario.failed_joints;
+        let motion = scenario.motion().plan(arm, KNOT_PERIOD)?;
+        let failed = scenario.failed_joints();
         let failed_joints = LockedJoints::new(failed).ok_or_else(|| ExperimentError::Joint {
             joint: failed.iter().copied().max().unwrap_or(0),
             joints: N,
@@ -56,9 +56,9 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
     /// # Errors
     /// When the motion under the tool force cannot be looked at, as with torques that are no finite numbers.
     pub fn run(&self) -> Result<Vec<Study>, ExperimentError> {
-        let experiments = self.scenario.experiments.iter();
+        let experiments = self.scenario.experiments().iter();
         let studies = experiments.flat_map(|experiment| {
-            let times = self.scenario.failure_times.iter();
+            let times = self.scenario.failure_times().iter();
             times.map(move |time| self.study(experiment, *time))
         });
         studies.collect()
@@ -77,7 +77,7 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
         let cases = Method::ALL.map(|method| self.case(experiment, &operation, method));
         let per_joint = cases[Method::PerJoint as usize].force_error;
         Ok(Study {
-            section: experiment.section.clone(),
+            section: experiment.section().to_owned(),
             failure_time,
             tradeoff: tradeoff(&operation, per_joint, Self::FRONTIER_POINTS).ok(),
             cases: cases.into(),
@@ -88,18 +88,19 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
         &self,
         experiment: &Experiment,
         failure_time: f64,
-    ) -> Result<Operation<N>, SearchError> {
+    ) -> Result<Operation<N>, ExperimentError> {
         let failure = Failure {
             joints: self.failed_joints,
             time: failure_time,
         };
         let options = OperationOptions {
-            sample_period: self.scenario.cycle,
-            rated_torque: rated_torque(experiment),
+            sample_period: self.scenario.cycle(),
+            rated_torque: rated_torque(experiment)?,
             ..OperationOptions::default()
         };
-        let force = |time| experiment.force.at(time);
-        Operation::new(self.arm, &self.motion, force, &failure, &options)
+        let force = |time| experiment.force().at(time);
+        let operation = Operation::new(self.arm, &self.motion, force, &failure, &options)?;
+        Ok(operation)
     }
 
     fn case(&self, experiment: &Experiment, operation: &Operation<N>, method: Method) -> Case {
@@ -123,20 +124,20 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
         let flight = Flight::fly(
             &controller,
             &self.motion,
-            &experiment.force,
+            experiment.force(),
             failure,
-            self.scenario.cycle,
+            self.scenario.cycle(),
         );
         let coefficients = match compensation {
             Compensation::PerJoint(k) | Compensation::Projected(k) => k,
             Compensation::Optimal { .. } => equivalent_per_joint(operation, &assessment),
         };
         Case {
-            section: experiment.section.clone(),
+            section: experiment.section().to_owned(),
             method,
             failed_joints: failure.joints.iter().collect(),
             failure_time: failure.time,
-            rated_torque: experiment.rated_torque.clone(),
+            rated_torque: experiment.rated_torque().map(<[f64]>::to_vec),
             impact_before: list(&operation.step().abs()),
             impact_after: list(&assessment.impact.abs()),
             coefficients: list(&coefficients),
@@ -151,10 +152,10 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
         operation: &Operation<N>,
         method: Method,
     ) -> Result<Outcome<N>, SearchError> {
-        let grid = self.scenario.search;
+        let grid = self.scenario.search();
         let stepwise = Stepwise {
-            start: SVector::repeat(grid.start),
-            ..Stepwise::with_step(grid.step)
+            start: SVector::repeat(grid.start()),
+            ..Stepwise::with_step(grid.step())
         };
         match method {
             Method::StepwisePerJoint => stepwise.search(operation, CoefficientLaw::PerJoint),

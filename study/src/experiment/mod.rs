@@ -36,6 +36,14 @@ pub enum ExperimentError {
         /// How many there are.
         joints: usize,
     },
+    /// An experiment of a scenario for another number of joints.
+    #[error("the experiment is for {experiment} joints, the arm has {arm}")]
+    Joints {
+        /// The joints of the experiment.
+        experiment: usize,
+        /// The joints of the arm.
+        arm: usize,
+    },
     /// The operation cannot be looked at.
     #[error(transparent)]
     Operation(#[from] SearchError),
@@ -56,10 +64,17 @@ pub enum ExperimentError {
 const KNOT_PERIOD: f64 = 0.02;
 
 /// Infinite where there is no limit.
-fn rated_torque<const N: usize>(experiment: &Experiment) -> SVector<f64, N> {
-    let rated = experiment.rated_torque.as_deref();
-    let rated = rated.and_then(|rated| <[f64; N]>::try_from(rated).ok());
-    rated.map_or(SVector::repeat(f64::INFINITY), SVector::from)
+fn rated_torque<const N: usize>(
+    experiment: &Experiment,
+) -> Result<SVector<f64, N>, ExperimentError> {
+    let Some(rated) = experiment.rated_torque() else {
+        return Ok(SVector::repeat(f64::INFINITY));
+    };
+    let rated = <[f64; N]>::try_from(rated).map_err(|_| ExperimentError::Joints {
+        experiment: rated.len(),
+        arm: N,
+    })?;
+    Ok(rated.into())
 }
 
 fn list<const N: usize>(vector: &SVector<f64, N>) -> Vec<f64> {

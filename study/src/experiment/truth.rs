@@ -99,8 +99,8 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
         let operation = self.operation(experiment, failure_time)?;
         let failure = *operation.failure();
         let brake = Brake {
-            profile: self.scenario.brake.profile,
-            ..Brake::new(failure, self.scenario.brake.duration)
+            profile: self.scenario.brake().profile(),
+            ..Brake::new(failure, self.scenario.brake().duration())
         };
         let mut runs = vec![self.run_truth(experiment, None, Compensation::none(), brake)?];
         for method in [Method::PerJoint, Method::Projected, Method::Optimal] {
@@ -118,7 +118,7 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
             fits.then(|| self.brake_impulse(experiment, brake))
         });
         Ok(Truth {
-            section: experiment.section.clone(),
+            section: experiment.section().to_owned(),
             failure_time,
             failed_joints: failure.joints.iter().collect(),
             brake_time: brake.duration,
@@ -147,12 +147,12 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
             torque: Vec::new(),
             predicted_torque: Vec::new(),
         };
-        let controller = self.controller(experiment, compensation);
+        let controller = self.controller(experiment, compensation)?;
         let (impact, outcome) =
             self.simulate(experiment, compensation, brake, start..end, |sample| {
                 run.time.push(sample.time);
                 run.torque.push(list(&sample.joint_torque()));
-                let wrench = experiment.force.at(sample.time);
+                let wrench = experiment.force().at(sample.time);
                 // At the lock there are two samples: only in the second the brakes act.
                 let free =
                     sample.elapsed < 0.0 || (sample.elapsed == 0.0 && sample.brake.amax() == 0.0);
@@ -208,8 +208,9 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
         &self,
         experiment: &Experiment,
         compensation: Compensation<N>,
-    ) -> Controller<'_, A, N> {
-        Controller::new(self.arm, compensation).with_rated_torque(rated_torque(experiment))
+    ) -> Result<Controller<'_, A, N>, ExperimentError> {
+        let rated = rated_torque(experiment)?;
+        Ok(Controller::new(self.arm, compensation).with_rated_torque(rated))
     }
 
     fn simulate(
@@ -222,11 +223,11 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
     ) -> Result<(Impact<N>, Outcome<N>), ExperimentError> {
         let simulation = Simulation {
             plant: self.arm,
-            controller: self.controller(experiment, compensation),
+            controller: self.controller(experiment, compensation)?,
             trajectory: self.motion(),
-            wrench: |time| experiment.force.at(time),
+            wrench: |time| experiment.force().at(time),
             feedback: Feedback::critical(FEEDBACK),
-            control: Control::Every(self.scenario.cycle),
+            control: Control::Every(self.scenario.cycle()),
             brake,
         };
         let outcome = simulation.run(span, &RESOLUTION, observe)?;

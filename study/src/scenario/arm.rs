@@ -35,7 +35,7 @@ impl ScenarioArm {
     pub fn name(&self) -> &str {
         match self {
             Self::Known(arm) => arm.name,
-            Self::Table { model, .. } => &model.name,
+            Self::Table { model, .. } => model.name(),
         }
     }
 
@@ -43,7 +43,7 @@ impl ScenarioArm {
     pub fn joints(&self) -> &[Joint] {
         match self {
             Self::Known(arm) => arm.joints,
-            Self::Table { model, .. } => &model.joints,
+            Self::Table { model, .. } => model.joints(),
         }
     }
 

@@ -4,138 +4,42 @@
 //! The files in `scenarios/` show all keys.
 
 mod arm;
+mod experiment;
 mod force;
 mod motion;
 mod read;
+mod settings;
 mod validate;
 
 pub use arm::{KnownArm, ScenarioArm};
+pub use experiment::{Experiment, Figure, FigureKind, Reference};
 pub use force::ToolForce;
 pub use motion::{Motion, Path as MotionPath, PlanError, PlannedMotion};
+pub use settings::{BrakeSettings, CampaignSettings, CaseCountError, SearchGrid};
 
 use std::fmt;
 use std::path::Path;
 
-use crate::simulation::BrakeProfile;
 use read::ScenarioTable;
 use ulna_table::diagnostics::{Diagnostics, Sink};
 use ulna_table::toml_reader::read_file;
 
 /// A validated scenario. Lists over joints have one entry for each joint of [`arm`](Self::arm).
+///
+/// Only a text can become one, and only what its methods change can be changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
-    /// What it is called.
-    pub name: String,
-    /// A sentence about it; may be empty.
-    pub description: String,
-    /// Which arm moves.
-    pub arm: ScenarioArm,
-    /// The planned motion.
-    pub motion: Motion,
-    /// The joints that lock together, counted from 0, ascending.
-    pub failed_joints: Vec<usize>,
-    /// The failure times t_f, s.
-    pub failure_times: Vec<f64>,
-    /// The control cycle Δt, s: torque limits are kept at its multiples.
-    pub cycle: f64,
-    /// The paper's search for k_d.
-    pub search: SearchGrid,
-    /// The brakes of the failed joints, where the lock is simulated.
-    pub brake: BrakeSettings,
-    /// What is tried with the motion.
-    pub experiments: Vec<Experiment>,
-    /// The random variation of [`Scenario`] in a campaign.
-    pub campaign: CampaignSettings,
-}
-
-/// Figure 2: where the search for k_di starts, and its step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SearchGrid {
-    /// The first value.
-    pub start: f64,
-    /// The step, above 0; both signs are tried.
-    pub step: f64,
-}
-
-/// Brakes that take time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BrakeSettings {
-    /// From moving to locked, s.
-    pub duration: f64,
-    /// How the rate falls in that time.
-    pub profile: BrakeProfile,
-}
-
-/// A tool force and torque limits.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Experiment {
-    /// Its number, such as the paper's "5.2"; no two are alike.
-    pub section: String,
-    /// A few words.
-    pub title: String,
-    /// What the tool exerts.
-    pub force: ToolForce,
-    /// The rated torques to keep, N·m (N); `None` for no limit.
-    pub rated_torque: Option<Vec<f64>>,
-    /// Figures from elsewhere, to stand beside ours.
-    pub references: Vec<Reference>,
-    /// What to draw of it.
-    pub figures: Vec<Figure>,
-}
-
-/// A figure of an experiment.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
-    /// What its files are called; `snake_case`.
-    pub name: String,
-    /// What it shows.
-    pub kind: FigureKind,
-}
-
-/// What a [`Figure`] shows.
-#[derive(Clone, Debug, PartialEq)]
-pub enum FigureKind {
-    /// Torques over time, without and with suppression.
-    Torque {
-        /// Of these joints, counted from 0.
-        joints: Vec<usize>,
-        /// With the failure at this one of the failure times, s.
-        time: f64,
-    },
-    /// The impact joint by joint, before and after, at every failure time, and the tool force over time if it varies.
-    Impact,
-}
-
-/// Somebody else's figures for a failure time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reference {
-    /// Where they stand.
-    pub source: String,
-    /// The failure time, s.
-    pub time: f64,
-    /// Impact torque without compensation, N·m (N), joint by joint; `None` where there is no figure.
-    pub before: Vec<Option<f64>>,
-    /// Impact torque with compensation, likewise.
-    pub after: Vec<Option<f64>>,
-    /// The coefficients k_d, likewise.
-    pub coefficients: Vec<Option<f64>>,
-}
-
-/// How a campaign varies a scenario. All ranges are symmetric and uniform.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CampaignSettings {
-    /// How many cases.
-    pub cases: u64,
-    /// The seed of all random numbers.
-    pub seed: u64,
-    /// How many failure times, evenly spread over the motion.
-    pub failure_times: u64,
-    /// Each joint's start is moved by at most so much, rad (m).
-    pub start_spread: f64,
-    /// Each joint's goal is moved by at most so much, rad (m).
-    pub goal_spread: f64,
-    /// Each task component of the tool force is within so much, N (N·m), constant in time.
-    pub force_spread: f64,
+    name: String,
+    description: String,
+    arm: ScenarioArm,
+    motion: Motion,
+    failed_joints: Vec<usize>,
+    failure_times: Vec<f64>,
+    cycle: f64,
+    search: SearchGrid,
+    brake: BrakeSettings,
+    experiments: Vec<Experiment>,
+    campaign: CampaignSettings,
 }
 
 impl Scenario {
@@ -184,6 +88,82 @@ impl Scenario {
                 ))
             }
         }
+    }
+}
+
+/// What is in it.
+impl Scenario {
+    /// What it is called.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// A sentence about it; may be empty.
+    pub fn description(&self) -> &str {
+        &self.description
+    }
+
+    /// Which arm moves.
+    pub fn arm(&self) -> &ScenarioArm {
+        &self.arm
+    }
+
+    /// The planned motion.
+    pub fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
+    /// The joints that lock together, counted from 0, ascending; at least one.
+    pub fn failed_joints(&self) -> &[usize] {
+        &self.failed_joints
+    }
+
+    /// The failure times t_f, s: while the arm moves, each once; at least one.
+    pub fn failure_times(&self) -> &[f64] {
+        &self.failure_times
+    }
+
+    /// The control cycle Δt, s: torque limits are kept at its multiples.
+    pub fn cycle(&self) -> f64 {
+        self.cycle
+    }
+
+    /// The paper's search for k_d.
+    pub fn search(&self) -> SearchGrid {
+        self.search
+    }
+
+    /// The brakes of the failed joints, where the lock is simulated.
+    pub fn brake(&self) -> BrakeSettings {
+        self.brake
+    }
+
+    /// What is tried with the motion; at least one.
+    pub fn experiments(&self) -> &[Experiment] {
+        &self.experiments
+    }
+
+    /// The random variation of [`Scenario`] in a campaign.
+    pub fn campaign(&self) -> CampaignSettings {
+        self.campaign
+    }
+
+    /// The same scenario with so many cases in its campaign.
+    ///
+    /// # Errors
+    /// When there may not be so many ([`CampaignSettings::CASES`]).
+    pub fn with_cases(mut self, cases: u64) -> Result<Self, CaseCountError> {
+        if !CampaignSettings::CASES.contains(&cases) {
+            return Err(CaseCountError { cases });
+        }
+        self.campaign.cases = cases;
+        Ok(self)
+    }
+
+    /// The same scenario with another seed for its campaign.
+    pub fn with_seed(mut self, seed: u64) -> Self {
+        self.campaign.seed = seed;
+        self
     }
 }
 

@@ -2,25 +2,21 @@
 
 use nalgebra::{SVector, Vector6};
 
+use super::CampaignSettings;
 use crate::tool_path::{StraightLine, ToolPath};
 use ulna::control::trajectory::TrajectoryError;
-use ulna::{Arm, JointLimits, JointState, Trajectory, Trapezoid};
+use ulna::proof::random::SplitMix64;
+use ulna::{Arm, JointLimits, JointState, TaskRows, Trajectory, Trapezoid};
 
-/// A planned motion from rest to rest.
+/// A planned motion from rest to rest. Its lists have one entry for each joint of the same arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
-    /// Where it starts: q, rad (m).
-    pub start: Vec<f64>,
-    /// How it goes on.
-    pub path: Path,
-    /// The whole motion, s.
-    pub duration: f64,
-    /// Speeding up and slowing down, s each.
-    pub blend: f64,
-    /// Largest |q̇_i|, rad/s (m/s); infinite where there is no limit.
-    pub max_velocity: Vec<f64>,
-    /// Largest |q̈_i|, rad/s² (m/s²); infinite where there is no limit.
-    pub max_acceleration: Vec<f64>,
+    pub(super) start: Vec<f64>,
+    pub(super) path: Path,
+    pub(super) duration: f64,
+    pub(super) blend: f64,
+    pub(super) max_velocity: Vec<f64>,
+    pub(super) max_acceleration: Vec<f64>,
 }
 
 /// What moves in a straight line.
@@ -33,6 +29,62 @@ pub enum Path {
 }
 
 impl Motion {
+    /// Where it starts: q, rad (m).
+    pub fn start(&self) -> &[f64] {
+        &self.start
+    }
+
+    /// How it goes on.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The whole motion, s.
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// Speeding up and slowing down, s each: above 0, and twice it is no more than the duration.
+    pub fn blend(&self) -> f64 {
+        self.blend
+    }
+
+    /// Largest |q̇_i|, rad/s (m/s); infinite where there is no limit.
+    pub fn max_velocity(&self) -> &[f64] {
+        &self.max_velocity
+    }
+
+    /// Largest |q̈_i|, rad/s² (m/s²); infinite where there is no limit.
+    pub fn max_acceleration(&self) -> &[f64] {
+        &self.max_acceleration
+    }
+
+    /// The motion as `campaign` varies it: another start, and another goal, for a tool in the components of `task`.
+    pub(crate) fn varied(
+        &self,
+        campaign: &CampaignSettings,
+        task: TaskRows,
+        random: &mut SplitMix64,
+    ) -> Self {
+        let mut motion = self.clone();
+        for start in &mut motion.start {
+            *start += campaign.start_spread * random.symmetric();
+        }
+        match &mut motion.path {
+            Path::Joint(goal) => {
+                for goal in goal {
+                    *goal += campaign.goal_spread * random.symmetric();
+                }
+            }
+            Path::Tool(displacement) => {
+                for row in task.iter() {
+                    displacement[row.index()] += campaign.goal_spread * random.symmetric();
+                }
+            }
+        }
+        motion
+    }
+
     /// The motion for `arm`; the knots of a tool path are `knot_period` s apart.
     ///
     /// # Errors

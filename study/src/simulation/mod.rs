@@ -15,8 +15,8 @@
 //!
 //! ```
 //! use ulna::nalgebra::Vector6;
-//! use ulna::simulation::{Brake, Control, Feedback, Resolution, Simulation};
 //! use ulna::{Arm, Compensation, Controller, Failure, Trajectory};
+//! use ulna_study::simulation::{Brake, Control, Feedback, Resolution, Simulation};
 //!
 //! /// What a joint's brake gives, N·m·s, beside what the ideal lock would ask of it.
 //! fn brake_impulse<const N: usize>(

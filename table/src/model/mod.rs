@@ -4,11 +4,16 @@
 //! `T_i = Rx(alpha) Tx(a) Rz(theta) Tz(d)` with the joint's axis along z of frame i.
 //! A table in standard form is rewritten into it (see [`Model`]), so that nothing after this stage knows two conventions.
 
+mod angle;
 mod convention;
+mod description;
 mod light;
 mod name;
+mod placement;
 mod validate;
+mod written;
 
+pub use description::Description;
 pub use validate::RATED_TORQUE;
 
 use std::path::Path;
@@ -17,28 +22,21 @@ use sha2::{Digest, Sha256};
 use ulna::{Joint, Placement, TaskRows};
 
 use crate::diagnostics::{Diagnostics, Sink, TableErrors};
-use crate::table::ArmTable;
+use crate::table::{ArmTable, Author};
 use crate::toml_reader::read_file;
 
-/// A validated arm of any number of joints.
+/// A validated arm of any number of joints: read from a table, or made by a program from a [`Description`].
 ///
-/// Nothing after this stage can fail on a user's input.
+/// Nothing after this stage can fail on a user's input: there is no model that has not been examined, and none can be changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
-    /// The arm's name, `snake_case`, a Rust identifier that is no keyword.
-    pub name: String,
-    /// Gravity, m/s², world axes.
-    pub gravity: [f64; 3],
-    /// The rows of J in w_D.
-    pub task: TaskRows,
-    /// `world_from_base`.
-    pub base: Placement,
-    /// `frame_N_from_tool`.
-    pub tool: Placement,
-    /// The joints, base first; at least one.
-    pub joints: Vec<Joint>,
-    /// SHA-256 of the table's text, hexadecimal.
-    pub table_hash: String,
+    name: String,
+    gravity: [f64; 3],
+    task: TaskRows,
+    base: Placement,
+    tool: Placement,
+    joints: Vec<Joint>,
+    table_hash: String,
 }
 
 impl Model {
@@ -90,8 +88,21 @@ impl Model {
     }
 
     fn lint_text(text: &str, source_name: &str) -> Result<(Self, Diagnostics), TableErrors> {
+        Self::examine(text, source_name, Author::Person, |_, _| ())
+    }
+
+    /// The model of the table `text`. `amend` may take out of the table what it reports.
+    fn examine(
+        text: &str,
+        source_name: &str,
+        author: Author,
+        amend: impl FnOnce(&mut ArmTable, &Sink),
+    ) -> Result<(Self, Diagnostics), TableErrors> {
         let sink = Sink::new(source_name, text);
-        let model = ArmTable::read(text, &sink).and_then(|table| table.into_model(&sink));
+        let model = ArmTable::read(text, author, &sink).and_then(|mut table| {
+            amend(&mut table, &sink);
+            table.into_model(&sink)
+        });
         let found = sink.finish();
         match model {
             Some(model) if !found.has_errors() => Ok((model.hashed(text), found)),
@@ -104,9 +115,47 @@ impl Model {
         self.table_hash = hash.iter().map(|byte| format!("{byte:02x}")).collect();
         self
     }
+}
+
+/// What is in it.
+impl Model {
+    /// The arm's name, `snake_case`, a Rust identifier that is no keyword.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
 
     /// The name of the type that stands for the arm in generated code: `planar_2r` becomes `Planar2r`.
     pub fn type_name(&self) -> String {
         name::type_name(&self.name)
+    }
+
+    /// Gravity, m/s², world axes.
+    pub fn gravity(&self) -> [f64; 3] {
+        self.gravity
+    }
+
+    /// The rows of J in w_D; at least one, and no more than there are joints.
+    pub fn task(&self) -> TaskRows {
+        self.task
+    }
+
+    /// `world_from_base`.
+    pub fn base(&self) -> &Placement {
+        &self.base
+    }
+
+    /// `frame_N_from_tool`.
+    pub fn tool(&self) -> &Placement {
+        &self.tool
+    }
+
+    /// The joints, base first, 1 to 32, in modified form.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// SHA-256 of the table's text, hexadecimal; for a model made by a program, of the text that [`Model::new`] writes.
+    pub fn table_hash(&self) -> &str {
+        &self.table_hash
     }
 }

@@ -1,18 +1,18 @@
 //! [`ArmTable`] → [`Model`]: units, physical bounds, names. The last stage that can fail on a user's input.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
-
 use nalgebra::Matrix3;
 
+use super::angle::Angles;
 use super::convention::{rows, standard_to_modified};
 use super::light::{light_links, weight_of};
+use super::placement::placement;
 use super::{Model, name};
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::table::{
-    AngleUnit, ArmTable, Convention, InertiaTable, JointTable, LinkTable, PlacementTable, Vector,
+    ArmTable, Convention, InertiaTable, JointTable, LinkTable, PlacementTable, Vector,
 };
 use crate::toml_reader::{Bound, Located};
-use ulna::{Angle, Joint, Link, Placement, TaskRow, TaskRows};
+use ulna::{Joint, Link, Placement, TaskRow, TaskRows};
 
 // The bounds are generous: 100 m of link, the gravity of the Sun.
 
@@ -76,18 +76,20 @@ impl ArmTable {
         let task = self
             .task
             .and_then(|rows| task_rows(&rows, joint_count, sink));
+        let angles = self.angle_unit.map(|unit| Angles {
+            unit,
+            author: self.author,
+        });
         let place = |table: Option<PlacementTable>, lengths: &Bound| match table {
-            Some(table) => placement(&table, self.angle_unit, lengths, sink),
+            Some(table) => placement(&table, angles, lengths, sink),
             None => Some(Placement::IDENTITY),
         };
         let base = place(self.base, &BASE_LENGTH);
         let tool = place(self.tool, &LENGTH);
         let weights: Vec<_> = self.joints.iter().flatten().map(weight_of).collect();
-        let joints: Option<Vec<_>> = self.joints.map(|rows| {
-            rows.iter()
-                .map(|row| joint(row, self.angle_unit, sink))
-                .collect()
-        });
+        let joints: Option<Vec<_>> = self
+            .joints
+            .map(|rows| rows.iter().map(|row| joint(row, angles, sink)).collect());
         // Everything has been looked at: only from here on may a fault end the reading.
         let mut joints = joints?.into_iter().collect::<Option<Vec<_>>>()?;
         let mut tool = tool?;
@@ -139,44 +141,11 @@ fn counted(count: usize, what: &str) -> String {
     }
 }
 
-fn placement(
-    table: &PlacementTable,
-    unit: Option<AngleUnit>,
-    lengths: &Bound,
-    sink: &Sink,
-) -> Option<Placement> {
-    let translation = match &table.xyz {
-        Some(xyz) => all_within(xyz, lengths, sink),
-        None => Some([0.0; 3]),
-    };
-    let angles = match &table.rpy {
-        Some(rpy) => all(rpy.each_ref().map(|turn| angle(turn.as_ref()?, unit, sink))),
-        None => Some([Angle::default(); 3]),
-    };
-    Some(Placement {
-        rotation: roll_pitch_yaw(angles?),
-        translation: translation?,
-    })
-}
-
-/// R = Rz(yaw) Ry(pitch) Rx(roll).
-fn roll_pitch_yaw([roll, pitch, yaw]: [Angle; 3]) -> [[f64; 3]; 3] {
-    let ((sr, cr), (sp, cp), (sy, cy)) = (roll.sin_cos(), pitch.sin_cos(), yaw.sin_cos());
-    let rx = Matrix3::new(1.0, 0.0, 0.0, 0.0, cr, -sr, 0.0, sr, cr);
-    let ry = Matrix3::new(cp, 0.0, sp, 0.0, 1.0, 0.0, -sp, 0.0, cp);
-    let rz = Matrix3::new(cy, -sy, 0.0, sy, cy, 0.0, 0.0, 0.0, 1.0);
-    rows(rz * ry * rx)
-}
-
-fn joint(row: &JointTable, unit: Option<AngleUnit>, sink: &Sink) -> Option<Joint> {
-    let theta = row
-        .theta
-        .as_ref()
-        .and_then(|theta| angle(theta, unit, sink));
-    let alpha = row
-        .alpha
-        .as_ref()
-        .and_then(|alpha| angle(alpha, unit, sink));
+fn joint(row: &JointTable, angles: Option<Angles>, sink: &Sink) -> Option<Joint> {
+    let theta = row.theta.as_ref();
+    let theta = theta.and_then(|theta| angles?.admit(theta, sink));
+    let alpha = row.alpha.as_ref();
+    let alpha = alpha.and_then(|alpha| angles?.admit(alpha, sink));
     let d = row.d.as_ref().and_then(|d| LENGTH.admit(d, sink));
     let a = row.a.as_ref().and_then(|a| LENGTH.admit(a, sink));
     let rated = row.rated_torque.as_ref();
@@ -246,71 +215,15 @@ fn inertia(row: &Located<InertiaTable>, sink: &Sink) -> Option<[[f64; 3]; 3]> {
     None
 }
 
-fn all_within(numbers: &Vector, bound: &Bound, sink: &Sink) -> Option<[f64; 3]> {
+pub(super) fn all_within(numbers: &Vector, bound: &Bound, sink: &Sink) -> Option<[f64; 3]> {
     let numbers = numbers.each_ref();
     all(numbers.map(|number| bound.admit(number.as_ref()?, sink)))
 }
 
 /// All values, if none is missing.
-fn all<T: Copy + Default, const K: usize>(values: [Option<T>; K]) -> Option<[T; K]> {
+pub(super) fn all<T: Copy + Default, const K: usize>(values: [Option<T>; K]) -> Option<[T; K]> {
     values
         .iter()
         .all(Option::is_some)
         .then(|| values.map(Option::unwrap_or_default))
-}
-
-/// The angle in radians, at most one turn either way; `unit` is `None` if it has been reported.
-fn angle(number: &Located<f64>, unit: Option<AngleUnit>, sink: &Sink) -> Option<Angle> {
-    let value = number.value;
-    let (turn, quarter, help) = match unit? {
-        AngleUnit::Degrees => (360.0, 90.0, "write an angle within a full turn"),
-        AngleUnit::Radians => (
-            TAU,
-            FRAC_PI_2,
-            "if angles are in degrees, write `angle_unit = \"deg\"`",
-        ),
-    };
-    // A little over one turn is rounding.
-    if value.abs() > turn * (1.0 + 1e-9) {
-        let message = format!("{} is more than a full turn", number.name);
-        sink.push(
-            Diagnostic::error(number.span.clone(), message)
-                .label(format!("must be within -{turn} to {turn}"))
-                .help(help),
-        );
-        return None;
-    }
-    let quarters = (value / quarter).round();
-    let degrees = unit? == AngleUnit::Degrees;
-    if degrees && value == quarters * quarter {
-        return Some(Angle::from_radians(quarters * FRAC_PI_2));
-    }
-    let radians = if degrees { value.to_radians() } else { value };
-    let exact = Angle::from_radians(radians).quarter_turns().1 == 0.0;
-    if !exact && let Some(multiple) = rounded_quarter(value) {
-        let (message, help) = if degrees {
-            (
-                "looks like an angle in radians",
-                "if angles are in rad, write `angle_unit = \"rad\"`".to_owned(),
-            )
-        } else {
-            (
-                "is a rounded quarter turn, which stays inexact",
-                format!("write {multiple:?}"),
-            )
-        };
-        let message = format!("{} {message}", number.name);
-        sink.push(Diagnostic::warning(number.span.clone(), message).help(help));
-    }
-    Some(Angle::from_radians(radians))
-}
-
-/// The multiple of π/2 that `value` is a decimal rounding of, such as 1.5708 or -3.14.
-fn rounded_quarter(value: f64) -> Option<f64> {
-    let multiple = (value / FRAC_PI_2).round() * FRAC_PI_2;
-    let rounds = |digits: i32| {
-        let scale = 10_f64.powi(digits);
-        (multiple * scale).round() / scale == value
-    };
-    (multiple != 0.0 && (2..=14).any(rounds)).then_some(multiple)
 }

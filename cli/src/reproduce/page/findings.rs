@@ -81,7 +81,7 @@ pub(super) fn suppression_against_force(
         "**Here the impact can be suppressed by 95 % with the tool force untouched.**"
     };
     // Only where figures of the paper stand beside ours.
-    let paper = if experiment.references.is_empty() {
+    let paper = if experiment.references().is_empty() {
         ""
     } else {
         "\nThe paper argues with Eq. 20, whose force is exact, and reports the suppression of Eq. 16.\n"
@@ -186,7 +186,7 @@ pub(super) fn search_in_steps(
         page,
         "**The search in steps.** A grid of step {:.0e} leaves up to half a step of k_d. That is more than 5 % of the impact where the exact \
          coefficient is only a few steps long: {}. The exact search has no such limit; it took {} ms where the search in steps took {} ms (`search.csv`).\n",
-        scenario.search.step,
+        scenario.search().step(),
         coarse.join("; "),
         milliseconds(Method::PerJoint),
         milliseconds(Method::StepwisePerJoint),
@@ -204,7 +204,7 @@ pub(super) fn beside_references(
             continue;
         };
         let case = study.case(Method::StepwisePerJoint);
-        let pairs = reference.before.iter().zip(&reference.after);
+        let pairs = reference.before().iter().zip(reference.after());
         let rows: Vec<_> = pairs
             .enumerate()
             .filter_map(|(joint, pair)| match pair {
@@ -223,7 +223,7 @@ pub(super) fn beside_references(
                 "Left of the impact after the search in steps, lock at {} s:\n\n\
                  | joint | {}, % | here, % |\n|---|---|---|\n{}\n",
                 study.failure_time,
-                reference.source,
+                reference.source(),
                 rows.join("\n")
             )?;
         }

@@ -38,8 +38,8 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
          compensation of each law, under the force of the first experiment; energy is balanced to {:.0e} of its size. \
          The step of the healthy joints' torques (norm) that is predicted without compensation is {} N·m at {} s; what they bear after the brake is a step of {} N·m without \
          compensation and of {} N·m under Eq. 16. A compensation that bends the tool force also moves an arm whose tool nothing holds, and the feedback works against it.\n",
-        joints_named(&scenario.failed_joints),
-        scenario.brake.duration,
+        joints_named(scenario.failed_joints()),
+        scenario.brake().duration(),
         energy.fold(0.0, f64::max),
         steps(truths, None, |run| &run.predicted_step),
         truths
@@ -84,7 +84,8 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
              and the difference shrinks at least in proportion to the brake's time. \
              A brake longer than the control cycle ({} s) also meets the feedback and what the plan asks for meanwhile. Lock at {} s:\n\n\
              | brake time, s | impulse, N·m·s | ideal lock | relative difference | peak torque of the brake, N·m |\n|---|---|---|---|---|",
-            scenario.cycle, truth.failure_time
+            scenario.cycle(),
+            truth.failure_time
         )?;
         for point in &truth.convergence {
             let listed = |impulses: &[f64]| {

@@ -19,7 +19,7 @@ use findings::{
 /// The page.
 pub(super) fn write(scenario: &Scenario, findings: &Findings) -> Result<String, fmt::Error> {
     let mut page = String::new();
-    let description = match scenario.description.as_str() {
+    let description = match scenario.description() {
         "" => String::new(),
         description => format!(" Its motion is {description}."),
     };
@@ -28,14 +28,14 @@ pub(super) fn write(scenario: &Scenario, findings: &Findings) -> Result<String, 
         "# {}\n\nArm `{}`; {}.{description}\n\n\
          Impact torque is the step of a joint's torque at the lock while the healthy joints keep to their plan (Eq. 18). \
          Forces are static: what the torques hold at the tool (Eq. 13).\n",
-        scenario.name,
-        scenario.arm.name(),
+        scenario.name(),
+        scenario.arm().name(),
         what_locks(scenario),
     )?;
-    for experiment in &scenario.experiments {
+    for experiment in scenario.experiments() {
         let studies = findings.of_section(experiment);
-        writeln!(page, "## {} {}\n", experiment.section, experiment.title)?;
-        if experiment.section == scenario.experiments[0].section {
+        writeln!(page, "## {} {}\n", experiment.section(), experiment.title())?;
+        if experiment.section() == scenario.experiments()[0].section() {
             suppression_against_force(&mut page, experiment, &studies)?;
             price_of_suppression(&mut page, &studies)?;
             search_in_steps(&mut page, scenario, &studies)?;
@@ -76,8 +76,8 @@ fn summary(page: &mut String, studies: &[&Study]) -> fmt::Result {
 }
 
 fn figures(page: &mut String, experiment: &Experiment) -> fmt::Result {
-    for figure in &experiment.figures {
-        let caption = match &figure.kind {
+    for figure in experiment.figures() {
+        let caption = match figure.kind() {
             FigureKind::Torque { joints, time } => {
                 format!(
                     "Torques of {} with the lock at {time} s, without and with suppression; on the right the half second before and after it",
@@ -89,7 +89,7 @@ fn figures(page: &mut String, experiment: &Experiment) -> fmt::Result {
         writeln!(
             page,
             "![{caption}](figures/{}.svg)\n\n*{caption}.*\n",
-            figure.name
+            figure.name()
         )?;
     }
     let caption =

@@ -1,5 +1,7 @@
 //! `[campaign]`.
 
+use std::ops::RangeInclusive;
+
 use super::Reader;
 use crate::scenario::CampaignSettings;
 use crate::scenario::read::{CampaignTable, Number};
@@ -16,25 +18,23 @@ const FORCE_SPREAD: Bound = Bound {
     help: "a spread is the largest deviation, not negative",
 };
 
-/// The most cases: their rows are in memory together, 0.2 KB each.
-const MAX_CASES: u64 = 1_000_000;
-/// The most failure times: each is a column of the figure.
-const MAX_FAILURE_TIMES: u64 = 1000;
+/// How many failure times there may be: each is a column of the figure.
+const FAILURE_TIMES: RangeInclusive<u64> = 1..=1000;
 
 impl Reader<'_> {
     pub(super) fn campaign(&self, table: &CampaignTable) -> Option<CampaignSettings> {
-        let count = |number: &Option<Located<u64>>, default: u64, most: u64| {
+        let count = |number: &Option<Located<u64>>, default: u64, range: RangeInclusive<u64>| {
             let Some(number) = number else {
                 return Some(default);
             };
-            if (1..=most).contains(&number.value) {
+            if range.contains(&number.value) {
                 return Some(number.value);
             }
             let message = format!("{} is out of bounds", number.name);
             self.refuse(
                 &number.span,
                 message,
-                format!("must be within 1 to {most}"),
+                format!("must be within {} to {}", range.start(), range.end()),
                 "write a count",
             );
             None
@@ -43,8 +43,8 @@ impl Reader<'_> {
             Some(_) => self.bounded(number, bound),
             None => Some(default),
         };
-        let cases = count(&table.cases, 10_000, MAX_CASES);
-        let failure_times = count(&table.failure_times, 20, MAX_FAILURE_TIMES);
+        let cases = count(&table.cases, 10_000, CampaignSettings::CASES);
+        let failure_times = count(&table.failure_times, 20, FAILURE_TIMES);
         let start_spread = spread(&table.start_spread, 0.5, &SPREAD);
         let goal_spread = spread(&table.goal_spread, 0.5, &SPREAD);
         let force_spread = spread(&table.force_spread, 20.0, &FORCE_SPREAD);
