@@ -1,4 +1,4 @@
-//! The build script's door: tables in, one Rust file each into `OUT_DIR`.
+//! For build scripts: tables in, one Rust file each into `OUT_DIR`.
 
 use std::fmt;
 use std::fs;
