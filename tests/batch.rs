@@ -5,7 +5,7 @@ use ulna::internal::Quantity;
 use ulna::proof::{State, states};
 use ulna::{Arm, ArmBatch, LengthMismatch, SerialChain, Unrolled as _};
 use ulna_generated::{Oblique6, Planar2r, Ssrms};
-use wide::{f32x8, f64x8};
+use wide::f64x4;
 
 /// None, fewer than the lanes, as many, and few or many over.
 const LENGTHS: [usize; 8] = [0, 1, 3, 4, 8, 11, 15, 33];
@@ -87,16 +87,12 @@ fn an_arm_with_a_prismatic_joint() {
 fn kernels_run_on_every_scalar() {
     let q = proof_configuration();
     let exact = Ssrms::mass_matrix_kernel::<f64>(&q);
-    let lanes = Ssrms::mass_matrix_kernel::<f64x8>(&q.map(f64x8::splat));
+    let lanes = Ssrms::mass_matrix_kernel::<f64x4>(&q.map(f64x4::splat));
     let single = Ssrms::mass_matrix_kernel::<f32>(&q.map(|x| x as f32));
-    let single_lanes = Ssrms::mass_matrix_kernel::<f32x8>(&q.map(|x| f32x8::splat(x as f32)));
     for (i, j) in (0..7).flat_map(|i| (0..7).map(move |j| (i, j))) {
-        assert_eq!(lanes[i][j].to_array(), [exact[i][j]; 8]);
+        assert_eq!(lanes[i][j].to_array(), [exact[i][j]; 4]);
         let allowed = 1e-5 * exact[0][0];
         assert!((f64::from(single[i][j]) - exact[i][j]).abs() < allowed);
-        for lane in single_lanes[i][j].to_array() {
-            assert!((f64::from(lane) - exact[i][j]).abs() < allowed);
-        }
     }
 }
 

@@ -5,11 +5,6 @@ use heck::{ToSnakeCase, ToUpperCamelCase};
 /// Longest name, in characters.
 const MAX_LENGTH: usize = 64;
 
-/// Rust's keywords, strict and reserved, of all editions. None of them may name a module.
-const KEYWORDS: &str = "abstract as async await become box break const continue crate do dyn else enum extern false \
-    final fn for gen if impl in let loop macro match mod move override priv pub ref return self static struct super \
-    trait true try type typeof union unsafe unsized use virtual where while yield";
-
 /// Names whose type would hide one that generated code or the module around it needs:
 /// the prelude's types and traits, and those of this library.
 const TAKEN_TYPES: &str = "AsMut AsRef Box Clone Copy Debug Default DoubleEndedIterator Drop Eq Err \
@@ -48,7 +43,7 @@ fn fault(name: &str) -> Option<&'static str> {
         Some(
             "must be snake_case: a to z, 0 to 9 and single underscores between them, a letter first",
         )
-    } else if listed(KEYWORDS, name) {
+    } else if is_keyword(name) {
         Some("is a keyword of Rust")
     } else if listed(DEVICES, name) {
         Some("is a device on Windows, not a file name")
@@ -61,6 +56,12 @@ fn fault(name: &str) -> Option<&'static str> {
     } else {
         None
     }
+}
+
+/// Strict and reserved keywords of all editions. None of them may name a module.
+fn is_keyword(name: &str) -> bool {
+    // Reserved since edition 2024, and no keyword to `syn`.
+    name == "gen" || syn::parse_str::<syn::Ident>(name).is_err()
 }
 
 fn is_snake_case(name: &str) -> bool {
