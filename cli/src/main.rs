@@ -12,6 +12,7 @@ mod generate;
 mod joints;
 mod output;
 mod reproduce;
+mod rows;
 mod verify;
 
 use std::io::{self, Write};

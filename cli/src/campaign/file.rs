@@ -12,6 +12,7 @@ use anyhow::{Context, bail};
 use super::record::{Identity, Record, Recorder, remedy};
 use super::row::{self, Row};
 use crate::output::{target, write_whole};
+use crate::rows;
 
 /// The file under way, or complete.
 pub(super) struct CampaignFile {
@@ -46,7 +47,7 @@ impl CampaignFile {
         // A whole file that is being continued is whole still, but the other has more rows.
         let paths = [file.partial.clone(), file.whole.clone()];
         let Some(path) = paths.iter().find(|path| path.exists()) else {
-            let header = row::header()?;
+            let header = rows::header::<Row>()?;
             file.recorder.add(header.as_bytes(), 0);
             // In this order: rows without their record would be refused.
             file.recorder.write()?;
@@ -71,7 +72,7 @@ impl CampaignFile {
         remake: impl Fn(u64) -> Row,
     ) -> anyhow::Result<Vec<u8>> {
         let mut text = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-        if !text.starts_with(row::header()?.as_bytes()) {
+        if !text.starts_with(rows::header::<Row>()?.as_bytes()) {
             bail!(
                 "{} is no file of a campaign; choose another --output",
                 path.display()
@@ -101,7 +102,7 @@ impl CampaignFile {
             let Some(row) = rows.get(index) else {
                 continue;
             };
-            if row::lines(&[remake(index as u64)])? != row::lines(std::slice::from_ref(row))? {
+            if rows::lines([&remake(index as u64)])? != rows::lines([row])? {
                 bail!(
                     "case {index} of {} comes out otherwise by this program; {}",
                     path.display(),
@@ -126,7 +127,7 @@ impl CampaignFile {
 
     /// Adds the next cases.
     pub(super) fn append(&mut self, rows: Vec<Row>) -> anyhow::Result<()> {
-        let text = row::lines(&rows)?;
+        let text = rows::lines(&rows)?;
         let opened = OpenOptions::new().append(true).open(&self.partial);
         let written = opened.and_then(|mut file| {
             file.write_all(text.as_bytes())?;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use ulna_study::experiment::CampaignCase;
 
 /// One case. Norms over the healthy joints, N m (N); forces in N; `None` where there is no outcome.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(crate) struct Row {
     pub(crate) case: u64,
     /// Counted from 1.
@@ -39,35 +39,6 @@ impl Row {
             },
         }
     }
-}
-
-/// The first line of the file.
-pub(super) fn header() -> anyhow::Result<String> {
-    let mut csv = csv::Writer::from_writer(Vec::new());
-    csv.write_record([
-        "case",
-        "failed_joint",
-        "failure_time",
-        "before",
-        "eq16",
-        "eq20",
-        "optimal",
-        "eq16_force_error",
-        "locked_before",
-        "status",
-    ])?;
-    Ok(String::from_utf8(csv.into_inner()?)?)
-}
-
-/// Rows as lines.
-pub(super) fn lines(rows: &[Row]) -> anyhow::Result<String> {
-    let mut csv = csv::WriterBuilder::new()
-        .has_headers(false)
-        .from_writer(Vec::new());
-    for row in rows {
-        csv.serialize(row)?;
-    }
-    Ok(String::from_utf8(csv.into_inner()?)?)
 }
 
 /// The rows of a file with its header, if they are whole and numbered without a gap.

@@ -1,176 +1,177 @@
-//! The CSV files.
+//! The CSV files of `ulna reproduce`.
 
+use serde::Serialize;
 use ulna_study::experiment::{Case, Study, Truth};
 
 use super::words::{name, solve_status, status};
+use crate::rows::file;
 
-/// One row for each case and joint.
-pub(super) fn impacts<'s>(cases: impl Iterator<Item = &'s Case>) -> anyhow::Result<Vec<u8>> {
-    let mut csv = ::csv::Writer::from_writer(Vec::new());
-    csv.write_record([
-        "section",
-        "failure_time",
-        "method",
-        "joint",
-        "locks",
-        "impact_before",
-        "impact_after",
-        "suppression_percent",
-        "coefficient",
-        "max_torque",
-    ])?;
-    for case in cases {
-        let suppression = case.suppression_percent();
-        for (joint, suppression) in suppression.iter().enumerate() {
-            csv.serialize((
-                &case.section,
-                case.failure_time,
-                name(case.method),
-                joint + 1,
-                case.failed_joints.contains(&joint),
-                case.impact_before[joint],
-                case.impact_after[joint],
-                suppression,
-                case.coefficients[joint],
-                case.flight.max_torque[joint],
-            ))?;
-        }
-    }
-    Ok(csv.into_inner()?)
+/// A case and a joint.
+#[derive(Default, Serialize)]
+struct Impact<'s> {
+    section: &'s str,
+    failure_time: f64,
+    method: &'static str,
+    joint: usize,
+    locks: bool,
+    impact_before: f64,
+    impact_after: f64,
+    suppression_percent: f64,
+    coefficient: f64,
+    max_torque: f64,
 }
 
-/// One row for each case: the searches side by side. The only numbers that differ from run to run are the seconds.
-pub(super) fn searches<'s>(cases: impl Iterator<Item = &'s Case>) -> anyhow::Result<Vec<u8>> {
-    let mut csv = ::csv::Writer::from_writer(Vec::new());
-    csv.write_record([
-        "section",
-        "failure_time",
-        "method",
-        "search",
-        "gap",
-        "iterations",
-        "seconds",
-        "healthy_before",
-        "healthy_after",
-        "force_error_at_lock",
-        "max_force_error",
-        "status",
-    ])?;
-    for case in cases {
+pub(super) fn impacts<'s>(cases: impl Iterator<Item = &'s Case>) -> anyhow::Result<String> {
+    file(cases.flat_map(|case| {
+        let suppression = case.suppression_percent().into_iter().enumerate();
+        suppression.map(|(joint, suppression_percent)| Impact {
+            section: &case.section,
+            failure_time: case.failure_time,
+            method: name(case.method),
+            joint: joint + 1,
+            locks: case.failed_joints.contains(&joint),
+            impact_before: case.impact_before[joint],
+            impact_after: case.impact_after[joint],
+            suppression_percent,
+            coefficient: case.coefficients[joint],
+            max_torque: case.flight.max_torque[joint],
+        })
+    }))
+}
+
+/// A case: the searches side by side. The only numbers that differ from run to run are the seconds.
+#[derive(Default, Serialize)]
+struct Search<'s> {
+    section: &'s str,
+    failure_time: f64,
+    method: &'static str,
+    search: Option<&'static str>,
+    gap: Option<f64>,
+    iterations: Option<usize>,
+    seconds: Option<f64>,
+    healthy_before: f64,
+    healthy_after: f64,
+    force_error_at_lock: f64,
+    max_force_error: f64,
+    status: String,
+}
+
+pub(super) fn searches<'s>(cases: impl Iterator<Item = &'s Case>) -> anyhow::Result<String> {
+    file(cases.map(|case| {
         let search = case.search.as_ref().ok();
-        let (before, after) = case.healthy_impact();
-        csv.serialize((
-            &case.section,
-            case.failure_time,
-            name(case.method),
-            search.map(|search| solve_status(search.status)),
-            search.and_then(|search| search.gap),
-            search.map(|search| search.iterations),
-            search.map(|search| search.seconds),
-            before,
-            after,
-            case.force_error,
-            case.flight.max_force_error,
-            status(case),
-        ))?;
-    }
-    Ok(csv.into_inner()?)
-}
-
-pub(super) fn frontiers(studies: &[Study]) -> anyhow::Result<Vec<u8>> {
-    let mut csv = ::csv::Writer::from_writer(Vec::new());
-    csv.write_record([
-        "section",
-        "failure_time",
-        "force_error_at_lock",
-        "healthy_impact",
-    ])?;
-    for study in studies {
-        for (force_error, impact) in study
-            .tradeoff
-            .iter()
-            .flat_map(|tradeoff| &tradeoff.frontier)
-        {
-            csv.serialize((&study.section, study.failure_time, force_error, impact))?;
+        let (healthy_before, healthy_after) = case.healthy_impact();
+        Search {
+            section: &case.section,
+            failure_time: case.failure_time,
+            method: name(case.method),
+            search: search.map(|search| solve_status(search.status)),
+            gap: search.and_then(|search| search.gap),
+            iterations: search.map(|search| search.iterations),
+            seconds: search.map(|search| search.seconds),
+            healthy_before,
+            healthy_after,
+            force_error_at_lock: case.force_error,
+            max_force_error: case.flight.max_force_error,
+            status: status(case),
         }
-    }
-    Ok(csv.into_inner()?)
+    }))
 }
 
-/// One row for each simulated lock and joint.
-pub(super) fn truth(truths: &[Truth]) -> anyhow::Result<Vec<u8>> {
-    let mut csv = ::csv::Writer::from_writer(Vec::new());
-    csv.write_record([
-        "section",
-        "failure_time",
-        "brake_time",
-        "method",
-        "joint",
-        "locks",
-        "predicted_step",
-        "torque_step",
-        "peak_torque",
-        "energy_error",
-    ])?;
-    for truth in truths {
-        for run in &truth.runs {
-            for (joint, step) in run.torque_step.iter().enumerate() {
-                csv.serialize((
-                    &truth.section,
-                    truth.failure_time,
-                    truth.brake_time,
-                    run.method.map_or("none", name),
-                    joint + 1,
-                    truth.failed_joints.contains(&joint),
-                    run.predicted_step[joint],
-                    step,
-                    run.peak_torque[joint],
-                    run.energy_error,
-                ))?;
-            }
-        }
-    }
-    Ok(csv.into_inner()?)
+/// A point of what force error buys.
+#[derive(Default, Serialize)]
+struct Frontier<'s> {
+    section: &'s str,
+    failure_time: f64,
+    force_error_at_lock: f64,
+    healthy_impact: f64,
 }
 
-/// One row for each brake time and failed joint.
-pub(super) fn convergence(truths: &[Truth]) -> anyhow::Result<Vec<u8>> {
-    let mut csv = ::csv::Writer::from_writer(Vec::new());
-    csv.write_record([
-        "section",
-        "failure_time",
-        "joint",
-        "brake_time",
-        "impulse",
-        "ideal_impulse",
-        "relative_difference",
-        "peak_brake_torque",
-        "energy_error",
-        "momentum_error",
-    ])?;
-    for truth in truths {
-        for point in &truth.convergence {
-            for (i, joint) in truth.failed_joints.iter().enumerate() {
-                csv.serialize((
-                    &truth.section,
-                    truth.failure_time,
-                    joint + 1,
-                    point.brake_time,
-                    point.impulse[i],
-                    point.ideal[i],
-                    point.relative_difference,
-                    point.peak_brake_torque,
-                    point.energy_error,
-                    point.momentum_error,
-                ))?;
-            }
-        }
-    }
-    Ok(csv.into_inner()?)
+pub(super) fn frontiers(studies: &[Study]) -> anyhow::Result<String> {
+    file(studies.iter().flat_map(|study| {
+        let points = study.tradeoff.iter().flat_map(|found| &found.frontier);
+        points.map(|(force_error, impact)| Frontier {
+            section: &study.section,
+            failure_time: study.failure_time,
+            force_error_at_lock: *force_error,
+            healthy_impact: *impact,
+        })
+    }))
 }
 
-/// One row for each time of the series. At the failure time there are two: before and after the lock.
-pub(super) fn series(case: &Case) -> anyhow::Result<Vec<u8>> {
+/// A simulated lock and a joint.
+#[derive(Default, Serialize)]
+struct SimulatedStep<'s> {
+    section: &'s str,
+    failure_time: f64,
+    brake_time: f64,
+    method: &'static str,
+    joint: usize,
+    locks: bool,
+    predicted_step: f64,
+    torque_step: f64,
+    peak_torque: f64,
+    energy_error: f64,
+}
+
+pub(super) fn truth(truths: &[Truth]) -> anyhow::Result<String> {
+    let runs = truths
+        .iter()
+        .flat_map(|truth| truth.runs.iter().map(move |run| (truth, run)));
+    file(runs.flat_map(|(truth, run)| {
+        let steps = run.torque_step.iter().enumerate();
+        steps.map(move |(joint, torque_step)| SimulatedStep {
+            section: &truth.section,
+            failure_time: truth.failure_time,
+            brake_time: truth.brake_time,
+            method: run.method.map_or("none", name),
+            joint: joint + 1,
+            locks: truth.failed_joints.contains(&joint),
+            predicted_step: run.predicted_step[joint],
+            torque_step: *torque_step,
+            peak_torque: run.peak_torque[joint],
+            energy_error: run.energy_error,
+        })
+    }))
+}
+
+/// A brake time and a failed joint.
+#[derive(Default, Serialize)]
+struct Convergence<'s> {
+    section: &'s str,
+    failure_time: f64,
+    joint: usize,
+    brake_time: f64,
+    impulse: f64,
+    ideal_impulse: f64,
+    relative_difference: f64,
+    peak_brake_torque: f64,
+    energy_error: f64,
+    momentum_error: f64,
+}
+
+pub(super) fn convergence(truths: &[Truth]) -> anyhow::Result<String> {
+    let points = truths
+        .iter()
+        .flat_map(|truth| truth.convergence.iter().map(move |point| (truth, point)));
+    file(points.flat_map(|(truth, point)| {
+        let joints = truth.failed_joints.iter().enumerate();
+        joints.map(move |(i, joint)| Convergence {
+            section: &truth.section,
+            failure_time: truth.failure_time,
+            joint: joint + 1,
+            brake_time: point.brake_time,
+            impulse: point.impulse[i],
+            ideal_impulse: point.ideal[i],
+            relative_difference: point.relative_difference,
+            peak_brake_torque: point.peak_brake_torque,
+            energy_error: point.energy_error,
+            momentum_error: point.momentum_error,
+        })
+    }))
+}
+
+/// One row for each time of the series, with columns for each joint. At the failure time there are two: before and after the lock.
+pub(super) fn series(case: &Case) -> anyhow::Result<String> {
     let series = &case.flight.series;
     let mut csv = ::csv::Writer::from_writer(Vec::new());
     let per_joint = |what: &str| {
@@ -201,5 +202,5 @@ pub(super) fn series(case: &Case) -> anyhow::Result<Vec<u8>> {
             .chain(&series.force_error[i]);
         csv.write_record(numbers.map(f64::to_string))?;
     }
-    Ok(csv.into_inner()?)
+    Ok(String::from_utf8(csv.into_inner()?)?)
 }
