@@ -75,7 +75,7 @@ impl<const N: usize, R: Scalar> Interpreter<N, R> {
         if let (Some(zero), Some(volume_squared)) = (method.zero_where_singular(), numbers.next()) {
             let q = coordinates(&self.chain, &state.q.data.0[0]);
             if self.chain.is_singular(&q, volume_squared) {
-                (zero..T::PARTS).for_each(|part| result.part_mut(part).fill(0.0));
+                result = result.zero_from(zero);
             }
         }
         result

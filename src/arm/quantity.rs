@@ -20,6 +20,9 @@ pub trait Quantity: Copy {
     /// Where the numbers of a part go.
     fn part_mut(&mut self, part: usize) -> &mut [f64];
 
+    /// The same with 0 in the parts from `first` on.
+    fn zero_from(self, first: usize) -> Self;
+
     /// All numbers, part by part.
     fn numbers(&self) -> impl Iterator<Item = f64> {
         (0..Self::PARTS).flat_map(|part| self.part(part).iter().copied())
@@ -31,6 +34,11 @@ impl Quantity for f64 {
 
     fn zero() -> Self {
         0.0
+    }
+
+    #[inline(always)]
+    fn zero_from(self, first: usize) -> Self {
+        if first == 0 { Self::zero() } else { self }
     }
 
     #[inline(always)]
@@ -52,6 +60,11 @@ impl<const R: usize, const C: usize> Quantity for SMatrix<f64, R, C> {
     }
 
     #[inline(always)]
+    fn zero_from(self, first: usize) -> Self {
+        if first == 0 { Self::zero() } else { self }
+    }
+
+    #[inline(always)]
     fn part(&self, _: usize) -> &[f64] {
         self.as_slice()
     }
@@ -67,6 +80,11 @@ impl<const R: usize, const C: usize, const K: usize> Quantity for [SMatrix<f64, 
 
     fn zero() -> Self {
         [SMatrix::zeros(); K]
+    }
+
+    #[inline(always)]
+    fn zero_from(self, first: usize) -> Self {
+        if first == 0 { Self::zero() } else { self }
     }
 
     #[inline(always)]
@@ -87,6 +105,11 @@ impl Quantity for IsometryMatrix3<f64> {
         let mut pose = Self::identity();
         pose.rotation.matrix_mut_unchecked().fill(0.0);
         pose
+    }
+
+    fn zero_from(mut self, first: usize) -> Self {
+        (first..Self::PARTS).for_each(|part| self.part_mut(part).fill(0.0));
+        self
     }
 
     #[inline(always)]
@@ -115,6 +138,12 @@ impl<A: Quantity, B: Quantity> Quantity for (A, B) {
     }
 
     #[inline(always)]
+    fn zero_from(self, first: usize) -> Self {
+        let second = first.saturating_sub(A::PARTS);
+        (self.0.zero_from(first), self.1.zero_from(second))
+    }
+
+    #[inline(always)]
     fn part(&self, part: usize) -> &[f64] {
         if part < A::PARTS {
             self.0.part(part)
@@ -139,6 +168,16 @@ impl<A: Quantity, B: Quantity, C: Quantity> Quantity for (A, B, C) {
 
     fn zero() -> Self {
         (A::zero(), B::zero(), C::zero())
+    }
+
+    #[inline(always)]
+    fn zero_from(self, first: usize) -> Self {
+        let second = first.saturating_sub(A::PARTS);
+        (
+            self.0.zero_from(first),
+            self.1.zero_from(second),
+            self.2.zero_from(second.saturating_sub(B::PARTS)),
+        )
     }
 
     #[inline(always)]

@@ -8,23 +8,6 @@ use nalgebra::SVector;
 use super::Unrolled;
 use super::simd::{self, Call, Double, Plain as _, Settled};
 use crate::arm::coordinates::{are_plain, coordinates};
-use crate::arm::quantity::Quantity;
-
-/// Makes the parts from `zero` on 0 where the task is singular.
-#[inline(always)]
-fn settle<A: Unrolled<N>, T: Quantity, const N: usize>(
-    q: &[f64; N],
-    settled: impl Settled<T>,
-    zero: usize,
-) -> T {
-    let (mut result, volume_squared) = settled.result_and_volume();
-    if A::CHAIN.is_singular(q, volume_squared) {
-        for part in zero..T::PARTS {
-            result.part_mut(part).fill(0.0);
-        }
-    }
-    result
-}
 
 macro_rules! define_methods {
     ([] $(
@@ -75,7 +58,9 @@ macro_rules! finish {
         $returned.plain()
     };
     ($returned:ident, $arm:ty, $q:expr, $zero:literal) => {
-        settle::<$arm, _, N>($q, $returned, $zero)
+        $returned.settle($zero, |volume_squared| {
+            <$arm>::CHAIN.is_singular($q, volume_squared)
+        })
     };
 }
 

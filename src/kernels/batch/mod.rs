@@ -87,9 +87,7 @@ fn settle<A: Unrolled<N>, R: Lanes, T: Quantity, const N: usize>(
     }
     for ((result, q), volume) in out.iter_mut().zip(&apart).zip(volume_squared.store()) {
         if A::CHAIN.is_singular(q, volume) {
-            for part in zero..T::PARTS {
-                result.part_mut(part).fill(0.0);
-            }
+            *result = result.zero_from(zero);
         }
     }
 }

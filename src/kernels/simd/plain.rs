@@ -4,6 +4,7 @@ use bytemuck::cast;
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, SMatrix, SVector, Translation3, Vector3};
 
 use super::Double;
+use crate::arm::quantity::Quantity;
 
 /// What a kernel returns, as plain doubles.
 pub(crate) trait Plain<T> {
@@ -51,19 +52,24 @@ impl<R: Double> Plain<IsometryMatrix3<f64>> for ([[R; 3]; 3], [R; 3]) {
 
 /// What a kernel of w_D returns: a result, and det(JJᵀ) after it.
 pub(crate) trait Settled<T> {
-    /// Both as plain doubles.
-    fn result_and_volume(self) -> (T, f64);
+    /// The result, with 0 in its parts from `zero` on where det(JJᵀ) counts as 0.
+    fn settle(self, zero: usize, counts_as_zero: impl FnOnce(f64) -> bool) -> T;
 }
 
-impl<R: Double, A: Plain<X>, X> Settled<X> for (A, R) {
+impl<R: Double, A: Plain<X>, X: Quantity> Settled<X> for (A, R) {
     #[inline(always)]
-    fn result_and_volume(self) -> (X, f64) {
-        (self.0.plain(), cast(self.1))
+    fn settle(self, zero: usize, counts_as_zero: impl FnOnce(f64) -> bool) -> X {
+        let (result, volume_squared): (X, f64) = (self.0.plain(), cast(self.1));
+        if counts_as_zero(volume_squared) {
+            result.zero_from(zero)
+        } else {
+            result
+        }
     }
 }
 
 macro_rules! tuple {
-    ($($from:ident $to:ident $field:tt),+; $volume:tt) => {
+    ($($from:ident $to:ident $value:ident $field:tt),+; $volume:tt) => {
         impl<$($from: Plain<$to>, $to),+> Plain<($($to,)+)> for ($($from,)+) {
             #[inline(always)]
             fn plain(self) -> ($($to,)+) {
@@ -71,14 +77,20 @@ macro_rules! tuple {
             }
         }
 
-        impl<R: Double, $($from: Plain<$to>, $to),+> Settled<($($to,)+)> for ($($from,)+ R) {
+        impl<R: Double, $($from: Plain<$to>, $to: Quantity),+> Settled<($($to,)+)> for ($($from,)+ R) {
             #[inline(always)]
-            fn result_and_volume(self) -> (($($to,)+), f64) {
-                (($(self.$field.plain(),)+), cast(self.$volume))
+            fn settle(self, zero: usize, counts_as_zero: impl FnOnce(f64) -> bool) -> ($($to,)+) {
+                let volume_squared: f64 = cast(self.$volume);
+                $(let $value: $to = self.$field.plain();)+
+                if counts_as_zero(volume_squared) {
+                    ($($value,)+).zero_from(zero)
+                } else {
+                    ($($value,)+)
+                }
             }
         }
     };
 }
 
-tuple!(A X 0, B Y 1; 2);
-tuple!(A X 0, B Y 1, C Z 2; 3);
+tuple!(A X x 0, B Y y 1; 2);
+tuple!(A X x 0, B Y y 1, C Z z 2; 3);
