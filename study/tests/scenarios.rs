@@ -26,7 +26,12 @@ fn known() -> Vec<KnownArm> {
 }
 
 fn parse(text: &str) -> Result<Scenario, ScenarioErrors> {
-    Scenario::parse(text, "scenarios/bad.toml", Path::new("scenarios"), &known())
+    Scenario::parse(
+        text,
+        "scenarios/bad.toml",
+        Path::new("../scenarios"),
+        &known(),
+    )
 }
 
 /// The scenario with the first of each `from` replaced by `to`.
@@ -95,7 +100,7 @@ impl WithoutMoment for ToolForce {
 #[test]
 fn every_shipped_scenario_is_sound() {
     let mut count = 0;
-    for entry in std::fs::read_dir("scenarios").unwrap() {
+    for entry in std::fs::read_dir("../scenarios").unwrap() {
         let path = entry.unwrap().path();
         if let Err(errors) = Scenario::load(&path, &known()) {
             panic!("{errors}");
@@ -134,7 +139,7 @@ fn a_table_stands_in_for_a_known_arm() {
     let ScenarioArm::Table { path, model } = &by_table.arm else {
         panic!("a table");
     };
-    assert_eq!(path, Path::new("scenarios/../arms/ssrms.toml"));
+    assert_eq!(path, Path::new("../scenarios/../arms/ssrms.toml"));
     assert_eq!(model.name, "ssrms");
     assert_eq!(by_table.motion, by_name.motion);
     let chain = SerialChain::<7>::try_from(model.as_ref()).unwrap();
@@ -176,6 +181,20 @@ fn keys_and_types() {
         ("title = \"constant force\"", "title = \"\\u001b[31mred\""),
     ]);
     insta::assert_snapshot!(messages);
+}
+
+#[test]
+fn a_table_is_told_from_a_scenario() {
+    let table = include_str!("../../arms/ssrms.toml");
+    insta::assert_snapshot!(parse(table).unwrap_err());
+}
+
+#[test]
+fn one_bracket_too_few() {
+    let single = PAPER_LIKE.replace("[[experiment]]", "[experiment]");
+    let orphan = PAPER_LIKE.replacen("[[experiment]]", "", 1);
+    let messages = [single, orphan].map(|text| parse(&text).unwrap_err().to_string());
+    insta::assert_snapshot!(messages.join("\n\n"));
 }
 
 #[test]
@@ -303,6 +322,7 @@ fn arms() {
         ("arm = \"ssrms\"", "arm = \"../tests/bad_arm.toml\""),
         ("arm = \"ssrms\"", "arm = \"oblique_6\""),
     ]);
+    let messages = messages.replace("../scenarios/", "scenarios/");
     insta::assert_snapshot!(messages);
 }
 
@@ -328,7 +348,7 @@ fn absent_files() {
     let errors = Scenario::load("../scenarios/paper_lik.toml", &known()).unwrap_err();
     let text = errors.to_string();
     assert!(
-        text.contains("did you mean scenarios/paper_like.toml?"),
+        text.contains("did you mean ../scenarios/paper_like.toml?"),
         "{text}"
     );
 }

@@ -18,7 +18,7 @@ fn quarter_turns(turns: &[i32]) -> Vec<Angle> {
 #[test]
 fn every_table_is_named_after_its_file_and_has_no_warning() {
     let mut count = 0;
-    for entry in std::fs::read_dir("arms").unwrap() {
+    for entry in std::fs::read_dir("../arms").unwrap() {
         let path = entry.unwrap().path();
         let (model, warnings): (Model, Diagnostics) = Model::lint(&path).unwrap();
         assert_eq!(

@@ -5,12 +5,14 @@
 
 mod arm;
 mod force;
+mod format;
 mod motion;
 mod read;
 mod validate;
 
 pub use arm::{KnownArm, ScenarioArm};
 pub use force::ToolForce;
+pub use format::reference;
 pub use motion::{Motion, Path as MotionPath, PlanError, PlannedMotion};
 
 use std::fmt;

@@ -9,8 +9,6 @@ mod light;
 mod name;
 mod validate;
 
-pub use validate::RATED_TORQUE;
-
 use std::path::Path;
 
 use sha2::{Digest, Sha256};

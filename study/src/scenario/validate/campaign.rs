@@ -2,24 +2,10 @@
 
 use super::Reader;
 use crate::scenario::CampaignSettings;
+use crate::scenario::format::bounds::{MAX_CASES, MAX_FAILURE_TIMES};
+use crate::scenario::format::campaign::{self as format, DEFAULTS};
 use crate::scenario::read::{CampaignTable, Number};
-use ulna_table::toml_reader::{Bound, Located};
-
-const SPREAD: Bound = Bound {
-    range: 0.0..=100.0,
-    unit: "rad (m)",
-    help: "a spread is the largest deviation, not negative",
-};
-const FORCE_SPREAD: Bound = Bound {
-    range: 0.0..=1e7,
-    unit: "N (N m)",
-    help: "a spread is the largest deviation, not negative",
-};
-
-/// The most cases: their rows are in memory together, 0.2 KB each.
-const MAX_CASES: u64 = 1_000_000;
-/// The most failure times: each is a column of the figure.
-const MAX_FAILURE_TIMES: u64 = 1000;
+use ulna_table::toml_reader::{Key, Located};
 
 impl Reader<'_> {
     pub(super) fn campaign(&self, table: &CampaignTable) -> Option<CampaignSettings> {
@@ -39,18 +25,34 @@ impl Reader<'_> {
             );
             None
         };
-        let spread = |number: &Number, default: f64, bound: &Bound| match number {
-            Some(_) => self.bounded(number, bound),
+        let spread = |number: &Number, default: f64, key: &Key| match number {
+            Some(_) => self.bounded(number, key),
             None => Some(default),
         };
-        let cases = count(&table.cases, 10_000, MAX_CASES);
-        let failure_times = count(&table.failure_times, 20, MAX_FAILURE_TIMES);
-        let start_spread = spread(&table.start_spread, 0.5, &SPREAD);
-        let goal_spread = spread(&table.goal_spread, 0.5, &SPREAD);
-        let force_spread = spread(&table.force_spread, 20.0, &FORCE_SPREAD);
+        let cases = count(&table.cases, DEFAULTS.cases, MAX_CASES);
+        let failure_times = count(
+            &table.failure_times,
+            DEFAULTS.failure_times,
+            MAX_FAILURE_TIMES,
+        );
+        let start_spread = spread(
+            &table.start_spread,
+            DEFAULTS.start_spread,
+            &format::START_SPREAD,
+        );
+        let goal_spread = spread(
+            &table.goal_spread,
+            DEFAULTS.goal_spread,
+            &format::GOAL_SPREAD,
+        );
+        let force_spread = spread(
+            &table.force_spread,
+            DEFAULTS.force_spread,
+            &format::FORCE_SPREAD,
+        );
         Some(CampaignSettings {
             cases: cases?,
-            seed: table.seed.as_ref().map_or(1, |seed| seed.value),
+            seed: table.seed.as_ref().map_or(DEFAULTS.seed, |seed| seed.value),
             failure_times: failure_times?,
             start_spread: start_spread?,
             goal_spread: goal_spread?,
