@@ -18,6 +18,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use output::Stdout;
 use ulna_study::scenario::ScenarioErrors;
 use ulna_table::TableErrors;
 
@@ -66,7 +67,7 @@ impl Command {
 fn main() -> ExitCode {
     let Cli { command } = Cli::parse();
     let command = command.unwrap_or_else(|| Command::Reproduce(reproduce::Arguments::default()));
-    let mut out = io::stdout().lock();
+    let mut out = Stdout::lock();
     let outcome = command
         .run(&mut out)
         .and_then(|verdict| Ok(out.flush().map(|()| verdict)?));
