@@ -32,6 +32,14 @@ pub(super) fn amend_line(line: &str, at: usize, is_word: bool) -> Option<Amendme
             help: format!("write `{}, {key} = ...`", value.trim_end()),
         });
     }
+    if let Some(parts) = numbers(value)
+        && code[..start].ends_with('=')
+    {
+        return Some(Amendment {
+            message: "no space stands in a number".to_owned(),
+            help: format!("write `{}`", parts.concat()),
+        });
+    }
     // A comma may be a part of what was meant: of the whole line's value, or of one in an inline table.
     let whole = code.split_once('=').map(|(_, value)| value);
     let entry = before.rfind('=').map(|equals| &before[equals + 1..]);
@@ -81,6 +89,10 @@ pub(super) fn amend(text: &str) -> Option<Amendment> {
         let help = formula.help();
         return amendment("formulas are not read, only numbers", help);
     }
+    if let Some(number) = power(text) {
+        let help = format!("write `{number:?}`");
+        return amendment("formulas are not read, only numbers", help);
+    }
     if let Some(number) = bare_point(text) {
         let help = format!("write `{number}`");
         return amendment("a decimal point stands between digits", help);
@@ -115,6 +127,14 @@ fn decimal_comma(text: &str) -> Option<String> {
     let whole = whole.trim_end();
     let unsigned = whole.strip_prefix(['-', '+']).unwrap_or(whole);
     (digits(unsigned) && digits(fraction)).then(|| format!("{whole}.{fraction}"))
+}
+
+/// The value of `10^4` or `10**4`.
+fn power(text: &str) -> Option<f64> {
+    let (base, exponent) = text.split_once("**").or_else(|| text.split_once('^'))?;
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let value = number(base)?.powf(number(exponent)?);
+    value.is_finite().then_some(value)
 }
 
 /// `.5` or `5.` with the digit that TOML wants.
@@ -261,6 +281,7 @@ mod tests {
             ("1/2", "write `0.5`"),
             ("3,761", "write `3.761`"),
             ("-0,5", "write `-0.5`"),
+            ("10^4", "write `10000.0`"),
             (".5", "write `0.5`"),
             ("-.5", "write `-0.5`"),
             ("5.", "write `5.0`"),

@@ -109,11 +109,15 @@ impl<'t> Fields<'t> {
                 .clone()
                 .filter(|known| !self.entries.contains_key(*known));
             let meant = closest(name, absent);
-            let help = match meant {
-                Some(meant) => format!("did you mean `{meant}`?"),
-                None => {
+            // Of one letter or two, every other is a neighbour.
+            let present = closest(name, names.clone().filter(|known| known.len() > 2));
+            let help = match (meant, present) {
+                (Some(meant), _) => format!("did you mean `{meant}`?"),
+                (None, Some(meant)) => format!("did you mean `{meant}`, which is there too?"),
+                (None, None) => {
                     let names: Vec<_> = names.collect();
-                    format!("known keys: {}{}", names.join(", "), self.elsewhere(name))
+                    let elsewhere = self.elsewhere(name);
+                    format!("known keys: {}{elsewhere}", names.join(", "))
                 }
             };
             // A misspelt key is one mistake, not an unknown key and a missing one.

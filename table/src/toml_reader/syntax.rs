@@ -10,8 +10,12 @@ use crate::diagnostics::{Diagnostic, Sink};
 /// The parser's words for a key that is there twice.
 const DUPLICATE: &str = "duplicate key";
 
-/// Its words for a value that begins like nothing but a string.
-const UNQUOTED: &str = "string values must be quoted";
+/// Its words for a value without quotes, by the first letter: of a string, of `nan` and `inf`, of `true` and `false`.
+const WORDS: [&str; 3] = [
+    "string values must be quoted",
+    "invalid float",
+    "invalid boolean",
+];
 
 /// Reports one syntax error for each line, up to where the text has lost its shape.
 pub(super) fn report(
@@ -56,7 +60,7 @@ pub(super) fn report(
         // and not closed. So do all lines after it: they would only bury the one that matters.
         let unclosed = !duplicate && span.end < text.len() && DeTable::parse(line).is_ok();
         let amendment = Some(marked.start).filter(|_| !duplicate && !unclosed);
-        let amendment = amendment.and_then(|at| amend_line(line, at, message == UNQUOTED));
+        let amendment = amendment.and_then(|at| amend_line(line, at, WORDS.contains(&message)));
         let message = amendment.as_ref().map_or(message, |meant| &meant.message);
         let mut diagnostic = Diagnostic::error(span, format!("not TOML: {message}"));
         if let Some(expected) = expected.filter(|_| amendment.is_none()) {
