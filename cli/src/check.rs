@@ -57,7 +57,7 @@ fn summarize(path: &Path, model: &Model, out: &mut dyn Write) -> io::Result<()> 
         kinds.join(" ")
     )?;
     writeln!(out, "  task           {}", rows.join(" "))?;
-    writeln!(out, "  moving mass    {mass} kg")?;
+    writeln!(out, "  moving mass    {} kg", rounded(mass))?;
     writeln!(out, "  gravity        {x} {y} {z} m/s^2")?;
     writeln!(
         out,
@@ -66,6 +66,14 @@ fn summarize(path: &Path, model: &Model, out: &mut dyn Write) -> io::Result<()> 
         joints.len()
     )?;
     writeln!(out, "  sha256         {}", model.table_hash())
+}
+
+/// A sum of numbers that were written in decimals, without the digits that only rounding has put there.
+fn rounded(sum: f64) -> f64 {
+    /// One less than a double is sure to hold, and a place for each power of ten in the number of joints.
+    const DIGITS: usize = 12;
+    // What `{:e}` has written can be read.
+    format!("{sum:.DIGITS$e}").parse().unwrap_or(sum)
 }
 
 fn kind(kind: JointKind) -> &'static str {

@@ -5,11 +5,14 @@
 mod arms;
 mod campaign;
 mod check;
+mod completions;
 mod console;
 mod cost;
 mod figures;
 mod generate;
+mod help;
 mod joints;
+mod man;
 mod output;
 mod reproduce;
 mod rows;
@@ -18,7 +21,8 @@ mod verify;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use output::Stdout;
 use ulna_study::scenario::ScenarioErrors;
 use ulna_table::TableErrors;
 
@@ -26,7 +30,12 @@ use ulna_table::TableErrors;
 ///
 /// Without a command: `ulna reproduce`.
 #[derive(Parser)]
-#[command(version, after_help = "Example:\n  ulna check arms/ssrms.toml")]
+#[command(
+    name = "ulna",
+    version,
+    disable_help_subcommand = true,
+    after_help = "Examples:\n  ulna check arms/ssrms.toml\n  ulna help table"
+)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -40,6 +49,9 @@ enum Command {
     Generate(generate::Arguments),
     Verify(verify::Arguments),
     Cost(cost::Arguments),
+    Help(help::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
 }
 
 /// What a command that ran to its end found.
@@ -60,14 +72,24 @@ impl Command {
             Self::Generate(arguments) => generate::run(&arguments, out),
             Self::Verify(arguments) => verify::run(&arguments, out),
             Self::Cost(arguments) => cost::run(&arguments, out),
+            Self::Help(arguments) => help::run(&arguments, out),
+            Self::Completions(arguments) => completions::run(&arguments, out),
+            Self::Man(arguments) => man::run(&arguments, out),
         }
     }
+}
+
+/// The whole command line, with every name and usage line filled in.
+fn command_line() -> clap::Command {
+    let mut command = Cli::command();
+    command.build();
+    command
 }
 
 fn main() -> ExitCode {
     let Cli { command } = Cli::parse();
     let command = command.unwrap_or_else(|| Command::Reproduce(reproduce::Arguments::default()));
-    let mut out = io::stdout().lock();
+    let mut out = Stdout::lock();
     let outcome = command
         .run(&mut out)
         .and_then(|verdict| Ok(out.flush().map(|()| verdict)?));

@@ -197,6 +197,20 @@ fn keys_and_types() {
 }
 
 #[test]
+fn a_table_is_told_from_a_scenario() {
+    let table = include_str!("../../arms/ssrms.toml");
+    insta::assert_snapshot!(parse(table).unwrap_err());
+}
+
+#[test]
+fn one_bracket_too_few() {
+    let single = PAPER_LIKE.replace("[[experiment]]", "[experiment]");
+    let orphan = PAPER_LIKE.replacen("[[experiment]]", "", 1);
+    let messages = [single, orphan].map(|text| parse(&text).unwrap_err().to_string());
+    insta::assert_snapshot!(messages.join("\n\n"));
+}
+
+#[test]
 fn joints_and_lengths() {
     let messages = messages(&[
         ("start = [0.0, ", "start = ["),

@@ -2,6 +2,7 @@
 
 mod chain;
 pub mod diagnostics;
+mod format;
 mod model;
 mod table;
 #[doc(hidden)]
@@ -9,8 +10,9 @@ pub mod toml_reader;
 
 pub use chain::JointCountError;
 pub use diagnostics::TableErrors;
+pub use format::reference;
 #[doc(hidden)]
-pub use model::RATED_TORQUE;
+pub use format::{ANGLE_UNIT, RATED_TORQUE};
 pub use model::{Description, Model};
 #[doc(hidden)]
 pub use table::AngleUnit;

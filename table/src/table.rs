@@ -4,7 +4,8 @@
 //! [model](crate::model)'s business. A `None` stands for a value that is absent or has been reported.
 
 use crate::diagnostics::{Diagnostic, Sink};
-use crate::toml_reader::{self, Fields, Located, Value};
+use crate::format;
+use crate::toml_reader::{self, ARM_TABLE, Fields, Key, Located, Value};
 use ulna::{JointKind, TaskRow};
 
 /// Who wrote a table's text. A program gives rotations as matrices and angles in radians, and has no file to mend.
@@ -14,6 +15,22 @@ pub(crate) enum Author {
     Person,
     /// [`Model::new`](crate::Model::new), for a program.
     Program,
+}
+
+impl Author {
+    fn base(self) -> &'static Key {
+        match self {
+            Self::Person => &format::BASE,
+            Self::Program => &format::DESCRIBED_BASE,
+        }
+    }
+
+    fn tool(self) -> &'static Key {
+        match self {
+            Self::Person => &format::TOOL,
+            Self::Program => &format::DESCRIBED_TOOL,
+        }
+    }
 }
 
 /// An arm's table, field by field.
@@ -53,14 +70,14 @@ pub enum AngleUnit {
 impl AngleUnit {
     /// Reads the unit, which every file with angles in it must name.
     pub fn read(fields: &mut Fields<'_>) -> Option<Self> {
-        let unit = fields.required(
-            "angle_unit",
-            "angle_unit = \"deg\"` or `angle_unit = \"rad\"",
-        )?;
-        let unit = unit.choice(&[("deg", Self::Degrees), ("rad", Self::Radians)])?;
+        let unit = fields.value(&format::ANGLE_UNIT)?.choice()?;
         Some(unit.value)
     }
 }
+
+/// Rows of J under one name.
+#[derive(Clone, Copy)]
+pub(crate) struct RowSet(pub(crate) &'static [TaskRow]);
 
 /// `[base]` or `[tool]`.
 pub(crate) struct PlacementTable {
@@ -108,40 +125,38 @@ impl ArmTable {
 
     /// Reads a table. `None` if `text` is no TOML; everything that is wrong goes to `sink`.
     pub(crate) fn read(text: &str, author: Author, sink: &Sink) -> Option<Self> {
-        toml_reader::read(text, sink, |fields| Self {
+        let format = match author {
+            Author::Person => &format::TABLE,
+            Author::Program => &format::DESCRIPTION,
+        };
+        toml_reader::read(text, &ARM_TABLE, format, sink, |fields| Self {
             author,
             name: fields
-                .required("name", "name = \"my_arm\"")
+                .value(&format::NAME)
                 .and_then(Value::string)
-                .map(|name| Located {
-                    value: name.value.to_owned(),
-                    span: name.span,
-                    name: name.name,
-                }),
+                .map(|name| name.map(str::to_owned)),
             convention: fields
-                .required(
-                    "convention",
-                    "convention = \"modified\"` or `convention = \"standard\"",
-                )
-                .and_then(|value| {
-                    value.choice(&[
-                        ("modified", Convention::Modified),
-                        ("standard", Convention::Standard),
-                    ])
-                })
+                .value(&format::CONVENTION)
+                .and_then(Value::choice)
                 .map(|convention| convention.value),
             angle_unit: AngleUnit::read(fields),
-            gravity: fields
-                .optional("gravity", "gravity = [0.0, 0.0, -9.81]")
-                .and_then(Value::numbers),
+            gravity: numbers(fields, &format::GRAVITY),
             task: fields
-                .required("task", "[task]` and below it `rows = \"position\"")
+                .value(&format::TASK)
                 .and_then(|value| value.table("[task]", |task| read_rows(task, sink)))
                 .flatten(),
-            base: read_placement(fields, author, "base", "[base]"),
-            tool: read_placement(fields, author, "tool", "[tool]"),
+            base: fields.value(author.base()).and_then(|base| {
+                base.table("[base]", |base| {
+                    read_placement(base, author, &format::BASE_XYZ)
+                })
+            }),
+            tool: fields.value(author.tool()).and_then(|tool| {
+                tool.table("[tool]", |tool| {
+                    read_placement(tool, author, &format::TOOL_XYZ)
+                })
+            }),
             joints: fields
-                .required("joint", "[[joint]]` once for each joint, base first")
+                .value(&format::JOINTS)
                 .and_then(|joints| read_joints(joints, sink)),
         })
     }
@@ -149,18 +164,14 @@ impl ArmTable {
 
 /// `rows` of `[task]`: a word, or a list of rows without repetition.
 fn read_rows(task: &mut Fields<'_>, sink: &Sink) -> Option<Located<Vec<TaskRow>>> {
-    let rows = task.required("rows", "rows = \"position\"")?;
+    let rows = task.value(&format::ROWS)?;
     let Located { span, name, .. } = rows.location();
     let value = if rows.is_string() {
-        let words = [
-            ("position", &TaskRow::ALL[..3]),
-            ("pose", &TaskRow::ALL[..]),
-        ];
-        rows.choice(&words)?.value.to_vec()
+        let RowSet(rows) = rows.choice()?.value;
+        rows.to_vec()
     } else {
-        let names = TaskRow::ALL.map(|row| (row.name(), row));
         let items = rows.items("\"position\", \"pose\" or a list of rows")?;
-        let read: Vec<_> = items.into_iter().map(|row| row.choice(&names)).collect();
+        let read: Vec<Option<Located<TaskRow>>> = items.into_iter().map(Value::choice).collect();
         // With a wrong row the count would be wrong too, and has been reported.
         let read = read.into_iter().collect::<Option<Vec<_>>>()?;
         let mut rows = Vec::new();
@@ -181,32 +192,17 @@ fn read_rows(task: &mut Fields<'_>, sink: &Sink) -> Option<Located<Vec<TaskRow>>
     Some(Located { value, span, name })
 }
 
-fn read_placement(
-    fields: &mut Fields<'_>,
-    author: Author,
-    key: &'static str,
-    owner: &str,
-) -> Option<PlacementTable> {
-    fields
-        .optional(
-            key,
-            "xyz = [0.0, 0.0, 0.0]` below a line `[base]` or `[tool]",
-        )?
-        .table(owner, |placement| PlacementTable {
-            xyz: placement
-                .optional("xyz", "xyz = [0.0, 0.0, 0.0]")
-                .and_then(Value::numbers),
-            turn: match author {
-                Author::Person => placement
-                    .optional("rpy", "rpy = [0.0, 0.0, 0.0]")
-                    .and_then(Value::numbers)
-                    .map(Turn::RollPitchYaw),
-                Author::Program => placement
-                    .optional("rotation", "rotation = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]")
-                    .and_then(read_rotation)
-                    .map(|matrix| Turn::Matrix(matrix.into())),
-            },
-        })
+fn read_placement(placement: &mut Fields<'_>, author: Author, xyz: &'static Key) -> PlacementTable {
+    PlacementTable {
+        xyz: numbers(placement, xyz),
+        turn: match author {
+            Author::Person => numbers(placement, &format::RPY).map(Turn::RollPitchYaw),
+            Author::Program => placement
+                .value(&format::ROTATION)
+                .and_then(read_rotation)
+                .map(|matrix| Turn::Matrix(matrix.into())),
+        },
+    }
 }
 
 /// Three rows of three numbers: [`Model::new`](crate::Model::new) writes no other.
@@ -242,60 +238,45 @@ fn read_joints(joints: Value<'_>, sink: &Sink) -> Option<Vec<JointTable>> {
 }
 
 fn read_joint(fields: &mut Fields<'_>, owner: &str) -> JointTable {
-    let kinds = [
-        ("revolute", JointKind::Revolute),
-        ("prismatic", JointKind::Prismatic),
-    ];
     JointTable {
         kind: fields
-            .optional("kind", "kind = \"revolute\"")
-            .and_then(|kind| kind.choice(&kinds))
-            .map_or(JointKind::Revolute, |kind| kind.value),
-        theta: number(fields, "theta", "theta = 0.0"),
-        d: number(fields, "d", "d = 0.0"),
-        a: number(fields, "a", "a = 0.0"),
-        alpha: number(fields, "alpha", "alpha = 0.0"),
-        rated_torque: fields
-            .optional("rated_torque", "rated_torque = 100.0")
-            .and_then(Value::number),
+            .value(&format::KIND)
+            .and_then(Value::choice)
+            .map_or(format::DEFAULT_KIND, |kind| kind.value),
+        theta: number(fields, &format::THETA),
+        d: number(fields, &format::D),
+        a: number(fields, &format::A),
+        alpha: number(fields, &format::ALPHA),
+        rated_torque: number(fields, &format::RATED),
         link: fields
-            .required("link", "[joint.link]` with mass, com and inertia below it")
+            .value(&format::LINK)
             .and_then(|link| link.table(owner, |fields| read_link(fields, owner))),
     }
 }
 
 fn read_link(fields: &mut Fields<'_>, owner: &str) -> LinkTable {
     LinkTable {
-        mass: number(fields, "mass", "mass = 1.0"),
-        com: fields
-            .required("com", "com = [0.0, 0.0, 0.0]")
-            .and_then(Value::numbers),
-        inertia: fields
-            .required("inertia", "inertia = { xx = 1.0, yy = 1.0, zz = 1.0 }")
-            .and_then(|inertia| {
-                let Located { span, name, .. } = inertia.location();
-                let value = inertia.table(&format!("the inertia of {owner}"), read_inertia)?;
-                Some(Located { value, span, name })
-            }),
+        mass: number(fields, &format::MASS),
+        com: numbers(fields, &format::COM),
+        inertia: fields.value(&format::INERTIA).and_then(|inertia| {
+            let place = inertia.location();
+            let value = inertia.table(&format!("the inertia of {owner}"), read_inertia)?;
+            Some(place.map(|()| value))
+        }),
     }
 }
 
 fn read_inertia(fields: &mut Fields<'_>) -> InertiaTable {
     InertiaTable {
-        moments: [
-            number(fields, "xx", "xx = 1.0"),
-            number(fields, "yy", "yy = 1.0"),
-            number(fields, "zz", "zz = 1.0"),
-        ],
-        products: [("xy", "xy = 0.0"), ("xz", "xz = 0.0"), ("yz", "yz = 0.0")]
-            .map(|(key, example)| fields.optional(key, example).and_then(Value::number)),
+        moments: [&format::XX, &format::YY, &format::ZZ].map(|key| number(fields, key)),
+        products: [&format::XY, &format::XZ, &format::YZ].map(|key| number(fields, key)),
     }
 }
 
-fn number(
-    fields: &mut Fields<'_>,
-    key: &'static str,
-    example: &'static str,
-) -> Option<Located<f64>> {
-    fields.required(key, example).and_then(Value::number)
+fn number(fields: &mut Fields<'_>, key: &'static Key) -> Option<Located<f64>> {
+    fields.value(key).and_then(Value::number)
+}
+
+fn numbers(fields: &mut Fields<'_>, key: &'static Key) -> Option<Vector> {
+    fields.value(key).and_then(Value::numbers)
 }

@@ -38,6 +38,65 @@ fn syntax() {
     insta::assert_snapshot!(messages);
 }
 
+/// What is no TOML, but tells what was meant.
+#[test]
+fn slips_of_the_pen() {
+    let messages = messages(&[
+        ("com = [0.5, 0.0, 0.0]", "com = [0.5 0.0, 0.0]"),
+        ("xx = 0.0003125, yy", "xx = 0.0003125 yy"),
+        ("alpha = 0.0", "alpha = pi/2"),
+        ("alpha = 0.0", "alpha = \"-pi/2\""),
+        ("mass = 1.0", "mass = 3,761"),
+        ("xx = 0.0003125, yy", "xx = 0,0003125, yy"),
+        ("com = [0.5, 0.0, 0.0]", "com = [0,5, 0,0, 0,0]"),
+        ("mass = 1.0", "mass = 1.0 kg"),
+        ("mass = 1.0", "mass = 1 000"),
+        ("mass = 1.0", "mass = 10^3"),
+        ("name = \"planar_2r\"", "name = nice_arm"),
+        ("mass = 1.0", "mass = .5"),
+        ("mass = 1.0", "mass: 1.0"),
+        ("mass = 1.0", "mass = 1.0 // kg"),
+        ("angle_unit = \"deg\"", "angle_unit = \u{201c}deg\u{201d}"),
+        ("rows = [\"x\", \"y\"]", "rows = [x, y]"),
+        ("# Two", "{ # Two"),
+    ]);
+    insta::assert_snapshot!(messages);
+}
+
+/// One mistake in a header, one error.
+#[test]
+fn headers() {
+    let edits = [
+        ("[[joint]]", "[joint]"),
+        ("[[joint]]", "[[Joint]]"),
+        ("[[joint]] # shoulder", ""),
+        ("[[joint]] # shoulder", "[joint] # shoulder"),
+        ("[joint.link]", "[link]"),
+    ];
+    let blocks = edits.map(|(from, to)| {
+        let found = refused(&PLANAR.replace(from, to));
+        assert_eq!(found.list().len(), 1, "{found}");
+        format!("==== {from} -> {to}\n\n{found}\n")
+    });
+    insta::assert_snapshot!(blocks.join("\n"));
+}
+
+#[test]
+fn a_key_under_another_header_is_told_its_place() {
+    let messages = messages(&[
+        ("[task]\n", ""),
+        ("inertia = {", "rated_torque = 3.0\ninertia = {"),
+    ]);
+    insta::assert_snapshot!(messages);
+}
+
+#[test]
+fn a_scenario_is_told_from_a_table() {
+    let scenario = include_str!("../../scenarios/paper_like.toml");
+    let found = refused(scenario);
+    insta::assert_snapshot!(found);
+}
+
 #[test]
 fn keys() {
     let messages = messages(&[

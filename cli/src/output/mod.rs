@@ -1,6 +1,7 @@
 //! Files, written whole or not at all.
 
 mod lock;
+mod stdout;
 mod target;
 
 use std::fs;
@@ -11,6 +12,7 @@ use anyhow::{Context, bail};
 use tempfile::NamedTempFile;
 
 pub(crate) use lock::FolderLock;
+pub(crate) use stdout::Stdout;
 pub(crate) use target::{refuse_special, target};
 
 /// Writes `bytes` under another name first, so that the file at `path` is never half of them.
@@ -29,10 +31,12 @@ struct Staged {
 impl Staged {
     fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
         let target = target(path)?;
-        let written = temporary(&target).and_then(|mut file| {
-            file.write_all(bytes)?;
+        let written = temporary(&target).and_then(|file| {
+            // The file itself: errors of `NamedTempFile` name it, which nobody has asked for.
+            let mut inner = file.as_file();
+            inner.write_all(bytes)?;
             // A file system may find out only now that it is full.
-            file.as_file().sync_all()?;
+            inner.sync_all()?;
             Ok(file)
         });
         Ok(Self {
@@ -46,24 +50,27 @@ impl Staged {
         let Self { file, path, target } = self;
         file.persist(target)
             .map(drop)
+            .map_err(|failed| failed.error)
             .with_context(|| cannot_write(&path))
     }
 }
 
 /// A file beside `target`, with the rights of the file that stands there.
 fn temporary(target: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
     let old = fs::metadata(target)
         .ok()
         .map(|metadata| metadata.permissions());
+    let mut options = fs::File::options();
+    options.read(true).write(true).create_new(true);
     #[cfg(unix)]
     {
         // A new one is like any new file, and not only for its owner; the umask applies.
-        use std::os::unix::fs::PermissionsExt;
-        let new = fs::Permissions::from_mode(0o666);
-        builder.permissions(old.clone().unwrap_or(new));
+        use std::os::unix::fs::{OpenOptionsExt, PermissionsExt};
+        options.mode(old.as_ref().map_or(0o666, PermissionsExt::mode));
     }
-    let file = builder.tempfile_in(folder_of(target))?;
+    let folder = folder_of(target);
+    // Opened here: an error of `tempfile_in` would name the temporary file.
+    let file = tempfile::Builder::new().make_in(folder, |path| options.open(path))?;
     if let Some(old) = old {
         file.as_file().set_permissions(old)?;
     }

@@ -39,6 +39,62 @@ fn bad_tables_give_every_error_and_good_ones_beside_them_their_summary() {
 }
 
 #[test]
+fn a_file_of_the_other_kind_is_told_by_whom_it_is_taken() {
+    for (command, file, message) in [
+        (
+            "check",
+            "scenarios/tool_path.toml",
+            "`ulna reproduce` and `ulna campaign` take a scenario",
+        ),
+        (
+            "reproduce",
+            "arms/ssrms.toml",
+            "`ulna check`, `ulna generate`, `ulna verify` and `ulna cost` take an arm's table",
+        ),
+        (
+            "campaign",
+            "arms/ssrms.toml",
+            "this looks like an arm's table, not a scenario",
+        ),
+    ] {
+        let err = stderr(&ulna(&[command, file]).code(1).stdout(""));
+        assert!(err.contains(message), "{err}");
+        assert_eq!(err.matches("error: ").count(), 1, "{err}");
+    }
+}
+
+#[test]
+fn the_mass_is_printed_as_it_would_be_added_by_hand() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("sum.toml");
+    // In doubles 15.062032 + 1.0000000000000002 is 16.062032000000002.
+    let text = include_str!("../../../arms/planar_2r.toml")
+        .replacen("mass = 1.0", "mass = 15.062032", 1)
+        .replace("mass = 1.0\n", "mass = 1.0000000000000002\n");
+    std::fs::write(&path, text).unwrap();
+    let out = stdout(&ulna(&["check", path.to_str().unwrap()]).code(0));
+    assert!(out.contains("moving mass    16.062032 kg\n"), "{out}");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_behind_stdout_is_told() {
+    use std::process::Command;
+    let full = std::fs::File::options().write(true).open("/dev/full");
+    let output = Command::new(assert_cmd::cargo::cargo_bin("ulna"))
+        .args(["help", "table"])
+        .stdout(full.unwrap())
+        .output()
+        .unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        err.contains("error: cannot write to the standard output: "),
+        "{err}"
+    );
+    assert_eq!(output.status.code(), Some(1));
+}
+
+#[test]
 fn a_task_of_dependent_rows_is_warned_of() {
     let folder = tempfile::tempdir().unwrap();
     let flat =

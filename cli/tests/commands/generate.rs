@@ -116,6 +116,22 @@ fn an_output_that_cannot_be_written_is_an_error() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn a_file_that_cannot_be_made_is_named_as_it_was_asked_for() {
+    // No user can make a file there.
+    let err = stderr(
+        &ulna(&["generate", TABLE, "--output", "/proc/arm.rs"])
+            .code(1)
+            .stdout(""),
+    );
+    assert!(
+        err.starts_with("error: cannot write /proc/arm.rs: "),
+        "{err}"
+    );
+    assert!(!err.contains(".tmp"), "{err}");
+}
+
+#[test]
 fn check_needs_a_file_to_check() {
     ulna(&["generate", TABLE, "--check"]).code(2).stdout("");
 }

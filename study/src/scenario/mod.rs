@@ -6,6 +6,7 @@
 mod arm;
 mod experiment;
 mod force;
+mod format;
 mod motion;
 mod read;
 mod settings;
@@ -14,6 +15,7 @@ mod validate;
 pub use arm::{KnownArm, ScenarioArm};
 pub use experiment::{Experiment, Figure, FigureKind, Reference};
 pub use force::ToolForce;
+pub use format::reference;
 pub use motion::{Motion, Path as MotionPath, PlanError, PlannedMotion};
 pub use settings::{BrakeSettings, CampaignSettings, CaseCountError, SearchGrid};
 

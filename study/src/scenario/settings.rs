@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use super::format::bounds::MAX_CASES;
 use crate::simulation::BrakeProfile;
 
 /// Figure 2: where the search for k_di starts, and its step.
@@ -55,7 +56,7 @@ pub struct CampaignSettings {
 
 impl CampaignSettings {
     /// How many cases there may be: their rows are in memory together, 0.2 KB each.
-    pub const CASES: RangeInclusive<u64> = 1..=1_000_000;
+    pub const CASES: RangeInclusive<u64> = 1..=MAX_CASES;
 
     /// How many cases.
     pub fn cases(&self) -> u64 {

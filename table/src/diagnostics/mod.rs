@@ -108,9 +108,9 @@ impl Sink {
         self.found.borrow_mut().push(diagnostic);
     }
 
-    /// The line of the text that holds the start of `span`.
-    pub fn line(&self, span: &Range<usize>) -> &str {
-        line_around(&self.text, span).0
+    /// The line of the text that holds the start of `span`, and the part of `span` that lies in it.
+    pub fn line(&self, span: &Range<usize>) -> (&str, Range<usize>) {
+        line_around(&self.text, span)
     }
 
     /// Everything found, in the order of the text.

@@ -14,7 +14,6 @@ mod validate;
 mod written;
 
 pub use description::Description;
-pub use validate::RATED_TORQUE;
 
 use std::path::Path;
 

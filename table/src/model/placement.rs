@@ -7,7 +7,7 @@ use super::convention::rows;
 use super::validate::{all, all_within};
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::table::{PlacementTable, Turn, Vector};
-use crate::toml_reader::{Bound, Located};
+use crate::toml_reader::{Key, Located};
 use ulna::{Angle, Placement};
 
 /// How far the rows of a rotation may be from length 1 and from right angles: nine digits of them, and what rounding makes of more.
@@ -17,7 +17,7 @@ const ROTATION_TOLERANCE: f64 = 1e-9;
 pub(super) fn placement(
     table: &PlacementTable,
     angles: Option<Angles>,
-    lengths: &Bound,
+    lengths: &Key,
     sink: &Sink,
 ) -> Option<Placement> {
     let translation = match &table.xyz {

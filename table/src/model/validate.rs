@@ -8,45 +8,12 @@ use super::light::{light_links, weight_of};
 use super::placement::placement;
 use super::{Model, name};
 use crate::diagnostics::{Diagnostic, Sink};
+use crate::format;
 use crate::table::{
     ArmTable, Convention, InertiaTable, JointTable, LinkTable, PlacementTable, Vector,
 };
-use crate::toml_reader::{Bound, Located};
+use crate::toml_reader::{Key, Located};
 use ulna::{Joint, Link, Placement, TaskRow, TaskRows};
-
-// The bounds are generous: 100 m of link, the gravity of the Sun.
-
-const LENGTH: Bound = Bound {
-    range: -100.0..=100.0,
-    unit: "m",
-    help: "lengths are in metres",
-};
-const BASE_LENGTH: Bound = Bound {
-    range: -1e5..=1e5,
-    unit: "m",
-    help: "lengths are in metres",
-};
-const MASS: Bound = Bound {
-    range: 1e-6..=1e6,
-    unit: "kg",
-    help: "masses are positive and in kilograms",
-};
-const MOMENT: Bound = Bound {
-    range: -1e9..=1e9,
-    unit: "kg m^2",
-    help: "inertias are in kg m^2, about the centroid",
-};
-/// What a rated torque may be, wherever one is written.
-pub const RATED_TORQUE: Bound = Bound {
-    range: 1e-6..=1e7,
-    unit: "N m (N if prismatic)",
-    help: "a rated torque is positive; leave the key out if there is none",
-};
-const GRAVITY: Bound = Bound {
-    range: -300.0..=300.0,
-    unit: "m/s^2",
-    help: "gravity is in m/s^2, for example [0.0, 0.0, -9.81]",
-};
 
 /// Smallest principal moment, kg·m²: a body of a milligram and a millimetre.
 const LEAST_MOMENT: f64 = 1e-12;
@@ -69,7 +36,7 @@ impl ArmTable {
             Some(name.value)
         });
         let gravity = match &self.gravity {
-            Some(gravity) => all_within(gravity, &GRAVITY, sink),
+            Some(gravity) => all_within(gravity, &format::GRAVITY, sink),
             None => Some([0.0; 3]),
         };
         let joint_count = self.joints.as_ref().map(Vec::len);
@@ -80,12 +47,12 @@ impl ArmTable {
             unit,
             author: self.author,
         });
-        let place = |table: Option<PlacementTable>, lengths: &Bound| match table {
-            Some(table) => placement(&table, angles, lengths, sink),
+        let place = |table: Option<PlacementTable>, xyz: &Key| match table {
+            Some(table) => placement(&table, angles, xyz, sink),
             None => Some(Placement::IDENTITY),
         };
-        let base = place(self.base, &BASE_LENGTH);
-        let tool = place(self.tool, &LENGTH);
+        let base = place(self.base, &format::BASE_XYZ);
+        let tool = place(self.tool, &format::TOOL_XYZ);
         let weights: Vec<_> = self.joints.iter().flatten().map(weight_of).collect();
         let joints: Option<Vec<_>> = self
             .joints
@@ -146,10 +113,10 @@ fn joint(row: &JointTable, angles: Option<Angles>, sink: &Sink) -> Option<Joint>
     let theta = theta.and_then(|theta| angles?.admit(theta, sink));
     let alpha = row.alpha.as_ref();
     let alpha = alpha.and_then(|alpha| angles?.admit(alpha, sink));
-    let d = row.d.as_ref().and_then(|d| LENGTH.admit(d, sink));
-    let a = row.a.as_ref().and_then(|a| LENGTH.admit(a, sink));
+    let d = row.d.as_ref().and_then(|d| format::D.admit(d, sink));
+    let a = row.a.as_ref().and_then(|a| format::A.admit(a, sink));
     let rated = row.rated_torque.as_ref();
-    let rated_torque = rated.map(|rated| RATED_TORQUE.admit(rated, sink));
+    let rated_torque = rated.map(|rated| format::RATED.admit(rated, sink));
     let link = row.link.as_ref().and_then(|row| link(row, sink));
     Some(Joint {
         kind: row.kind,
@@ -166,11 +133,14 @@ fn joint(row: &JointTable, angles: Option<Angles>, sink: &Sink) -> Option<Joint>
 }
 
 fn link(row: &LinkTable, sink: &Sink) -> Option<Link> {
-    let mass = row.mass.as_ref().and_then(|mass| MASS.admit(mass, sink));
+    let mass = row
+        .mass
+        .as_ref()
+        .and_then(|mass| format::MASS.admit(mass, sink));
     let com = row
         .com
         .as_ref()
-        .and_then(|com| all_within(com, &LENGTH, sink));
+        .and_then(|com| all_within(com, &format::COM, sink));
     let inertia = row.inertia.as_ref().and_then(|row| inertia(row, sink));
     Some(Link {
         mass: mass?,
@@ -181,10 +151,10 @@ fn link(row: &LinkTable, sink: &Sink) -> Option<Link> {
 
 /// The tensor, if a rigid body can have it.
 fn inertia(row: &Located<InertiaTable>, sink: &Sink) -> Option<[[f64; 3]; 3]> {
-    let moments = all_within(&row.value.moments, &MOMENT, sink);
+    let moments = all_within(&row.value.moments, &format::XX, sink);
     let products = row.value.products.each_ref();
     let products = products.map(|product| match product {
-        Some(product) => MOMENT.admit(product, sink),
+        Some(product) => format::XY.admit(product, sink),
         None => Some(0.0),
     });
     let [xx, yy, zz] = moments?;
@@ -215,9 +185,9 @@ fn inertia(row: &Located<InertiaTable>, sink: &Sink) -> Option<[[f64; 3]; 3]> {
     None
 }
 
-pub(super) fn all_within(numbers: &Vector, bound: &Bound, sink: &Sink) -> Option<[f64; 3]> {
+pub(super) fn all_within(numbers: &Vector, key: &Key, sink: &Sink) -> Option<[f64; 3]> {
     let numbers = numbers.each_ref();
-    all(numbers.map(|number| bound.admit(number.as_ref()?, sink)))
+    all(numbers.map(|number| key.admit(number.as_ref()?, sink)))
 }
 
 /// All values, if none is missing.

@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use toml::de::DeValue;
 
+use super::amend::amend;
+use super::describe::{either, quoted};
+use super::key::{Choice, Key, Section};
 use super::{Fields, closest};
 use crate::diagnostics::{Diagnostic, Sink};
 
@@ -41,7 +44,8 @@ pub struct Value<'t> {
     pub(super) value: &'t DeValue<'t>,
     pub(super) span: Range<usize>,
     pub(super) name: String,
-    pub(super) example: &'static str,
+    pub(super) key: &'static Key,
+    pub(super) root: &'static Section,
     pub(super) sink: &'t Sink,
 }
 
@@ -57,6 +61,10 @@ impl<'t> Value<'t> {
             DeValue::Float(float) => float.as_str().parse().unwrap_or(f64::NAN),
             DeValue::String(string) if string.trim().parse::<f64>().is_ok() => {
                 let help = format!("write it without quotes: {}", string.trim());
+                return self.mismatch("a number", help);
+            }
+            DeValue::String(string) => {
+                let help = amend(string).map_or_else(|| self.written(), |amendment| amendment.help);
                 return self.mismatch("a number", help);
             }
             _ => return self.expected("a number"),
@@ -81,7 +89,10 @@ impl<'t> Value<'t> {
             .or_else(|numbers: Vec<_>| {
                 let count = numbers.len();
                 let message = format!("{} must have {K} numbers, not {count}", self.name);
-                let help = format!("write `{}`", self.example);
+                let mut help = self.written();
+                if count == 2 * K {
+                    help += "; a decimal point is a point, not a comma";
+                }
                 self.error(message, format!("{count} here"), help).ok_or(())
             })
             .ok()
@@ -123,26 +134,22 @@ impl<'t> Value<'t> {
         }
     }
 
-    /// One of the words in `choices`.
-    pub fn choice<T: Copy>(self, choices: &[(&'static str, T)]) -> Option<Located<T>> {
+    /// One of the words that stand for a `T`.
+    pub fn choice<T: Choice>(self) -> Option<Located<T>> {
         let word = self.clone().string()?.value;
-        if let Some((_, chosen)) = choices.iter().find(|(choice, _)| *choice == word) {
-            return Some(self.located(*chosen));
+        if let Some(chosen) = T::WORDS.iter().find(|choice| choice.word == word) {
+            return Some(self.located(chosen.value));
         }
-        let quoted: Vec<_> = choices
-            .iter()
-            .map(|(word, _)| format!("{word:?}"))
-            .collect();
-        let quoted = match quoted.split_last() {
-            Some((last, others @ [_, ..])) => format!("{} or {last}", others.join(", ")),
-            _ => quoted.concat(),
-        };
-        let help = match closest(word, choices.iter().map(|(word, _)| word)) {
+        let words = T::listed();
+        let mut parts = quoted(&words);
+        parts.extend(self.key.kind.besides(&words));
+        let expected = either(&parts);
+        let help = match closest(word, words.iter().map(|(word, _)| *word)) {
             Some(meant) => format!("did you mean {meant:?}?"),
-            None => format!("write {quoted}"),
+            None => format!("write {expected}"),
         };
         let message = format!("{} cannot be {word:?}", self.name);
-        self.error(message, format!("expected {quoted}"), help)
+        self.error(message, format!("expected {expected}"), help)
     }
 
     /// The items of an array; `expected` names it in the message.
@@ -162,7 +169,11 @@ impl<'t> Value<'t> {
     /// The keys of a table, which messages call `owner`.
     pub fn table<T>(self, owner: &str, fields: impl FnOnce(&mut Fields<'t>) -> T) -> Option<T> {
         match self.value {
-            DeValue::Table(table) => Some(Fields::read(table, self.sink, self.span, owner, fields)),
+            DeValue::Table(table) => {
+                let section = self.key.kind.section()?;
+                let keys = Fields::new(table, section, self.root, self.sink, self.span, owner);
+                Some(keys.read(fields))
+            }
             _ => self.expected("a table"),
         }
     }
@@ -204,8 +215,12 @@ impl<'t> Value<'t> {
         }
     }
 
+    fn written(&self) -> String {
+        format!("write {}", self.key.write)
+    }
+
     fn expected<T>(self, expected: &str) -> Option<T> {
-        let help = format!("write `{}`", self.example);
+        let help = self.written();
         self.mismatch(expected, help)
     }
 

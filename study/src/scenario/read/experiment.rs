@@ -1,6 +1,7 @@
 //! `[[experiment]]`, its references and its figures.
 
 use super::{List, Number, Numbers, list, number, string, text_of};
+use crate::scenario::format::experiment as format;
 use ulna_table::diagnostics::{Diagnostic, Sink};
 use ulna_table::toml_reader::{Fields, Located, Value};
 
@@ -25,6 +26,13 @@ pub(in crate::scenario) enum RatedTable {
     Common(Located<f64>),
     /// One for each joint.
     Each(Located<Numbers>),
+}
+
+/// `rated_torque` where it is a word.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::scenario) enum RatedWord {
+    None,
+    OfArm,
 }
 
 /// `[[experiment.reference]]`
@@ -68,25 +76,15 @@ pub(super) fn read_experiments(value: Value<'_>, sink: &Sink) -> Option<Vec<Expe
 
 fn read_experiment(fields: &mut Fields<'_>, owner: &str) -> ExperimentTable {
     ExperimentTable {
-        section: string(fields.required("section", "section = \"5.2\"")),
-        title: text_of(fields.optional("title", "title = \"constant force\"")),
-        force: fields
-            .required("force", "force = [20.0, 20.0, 20.0]")
-            .and_then(polynomials),
-        moment: fields
-            .optional("moment", "moment = [0.0, 0.0, 0.0]")
-            .and_then(polynomials),
+        section: string(fields.value(&format::SECTION)),
+        title: text_of(fields.value(&format::TITLE)),
+        force: fields.value(&format::FORCE).and_then(polynomials),
+        moment: fields.value(&format::MOMENT).and_then(polynomials),
         rated_torque: fields
-            .required(
-                "rated_torque",
-                "rated_torque = \"table\"` or `rated_torque = 300.0",
-            )
+            .value(&format::RATED_TORQUE)
             .and_then(read_rated_torque),
         references: fields
-            .optional(
-                "reference",
-                "[[experiment.reference]]` with source, time, before and after below it",
-            )
+            .value(&format::REFERENCES)
             .and_then(|value| value.items("a list, each under its own [[experiment.reference]]"))
             .and_then(|rows| {
                 Value::tables(
@@ -97,10 +95,7 @@ fn read_experiment(fields: &mut Fields<'_>, owner: &str) -> ExperimentTable {
             })
             .unwrap_or_default(),
         figures: fields
-            .optional(
-                "figure",
-                "[[experiment.figure]]` with name and kind below it",
-            )
+            .value(&format::FIGURES)
             .and_then(|value| value.items("a list, each under its own [[experiment.figure]]"))
             .and_then(|rows| Value::tables(rows, |i| format!("figure {i} of {owner}"), read_figure))
             .unwrap_or_default(),
@@ -123,12 +118,9 @@ fn polynomials(value: Value<'_>) -> Option<Located<Vec<Option<Numbers>>>> {
 
 fn read_rated_torque(value: Value<'_>) -> Option<RatedTable> {
     if value.is_string() {
-        let choices = [("none", false), ("table", true)];
-        let of_arm = value.choice(&choices)?.value;
-        Some(if of_arm {
-            RatedTable::OfArm
-        } else {
-            RatedTable::None
+        Some(match value.choice()?.value {
+            RatedWord::None => RatedTable::None,
+            RatedWord::OfArm => RatedTable::OfArm,
         })
     } else if value.is_array() {
         value.list_of_numbers().map(RatedTable::Each)
@@ -139,38 +131,25 @@ fn read_rated_torque(value: Value<'_>) -> Option<RatedTable> {
 
 fn read_reference(fields: &mut Fields<'_>, _: &str) -> ReferenceTable {
     ReferenceTable {
-        source: text_of(fields.required("source", "source = \"paper, Table 2\"")),
-        time: number(fields.required("time", "time = 10.0")),
-        joints: list(fields.optional("joints", "joints = [4, 5, 6]")),
-        before: list(fields.optional("before", "before = [30.18, 66.72]")),
-        after: list(fields.optional("after", "after = [0.15, 0.14]")),
-        coefficients: list(fields.optional("coefficients", "coefficients = [1e7, -1e7]")),
+        source: text_of(fields.value(&format::SOURCE)),
+        time: number(fields.value(&format::REFERENCE_TIME)),
+        joints: list(fields.value(&format::REFERENCE_JOINTS)),
+        before: list(fields.value(&format::BEFORE)),
+        after: list(fields.value(&format::AFTER)),
+        coefficients: list(fields.value(&format::COEFFICIENTS)),
     }
 }
 
 fn read_figure(fields: &mut Fields<'_>, _: &str) -> FigureTable {
-    let kinds = [
-        ("torque", FigureWord::Torque),
-        ("impact", FigureWord::Impact),
-    ];
-    let name = string(fields.required("name", "name = \"my_figure\""));
-    let kind = fields
-        .required("kind", "kind = \"torque\"` or `kind = \"impact\"")
-        .and_then(|kind| kind.choice(&kinds))
-        .map(|kind| kind.value);
+    let name = string(fields.value(&format::FIGURE_NAME));
+    let kind: Option<Located<FigureWord>> =
+        fields.value(&format::FIGURE_KIND).and_then(Value::choice);
+    let kind = kind.map(|kind| kind.value);
     let of_torque = kind != Some(FigureWord::Impact);
     FigureTable {
         name,
         kind,
-        joints: list(
-            of_torque
-                .then(|| fields.required("joints", "joints = [1, 3]"))
-                .flatten(),
-        ),
-        time: number(
-            of_torque
-                .then(|| fields.required("time", "time = 10.0"))
-                .flatten(),
-        ),
+        joints: list(fields.value_if(&format::FIGURE_JOINTS, of_torque)),
+        time: number(fields.value_if(&format::FIGURE_TIME, of_torque)),
     }
 }

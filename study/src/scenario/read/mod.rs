@@ -6,15 +6,18 @@
 mod experiment;
 mod motion;
 
+use super::format::{self, campaign};
 use crate::simulation::BrakeProfile;
 use ulna_table::AngleUnit;
 use ulna_table::diagnostics::Sink;
-use ulna_table::toml_reader::{self, Fields, Located, Value};
+use ulna_table::toml_reader::{self, Fields, Located, SCENARIO, Value};
 
 use experiment::read_experiments;
-pub(super) use experiment::{ExperimentTable, FigureTable, FigureWord, RatedTable, ReferenceTable};
+pub(super) use experiment::{
+    ExperimentTable, FigureTable, FigureWord, RatedTable, RatedWord, ReferenceTable,
+};
 use motion::read_motion;
-pub(super) use motion::{Angles, MotionTable, PathTable};
+pub(super) use motion::{Angles, MotionKind, MotionTable, PathTable};
 
 /// Numbers, each read by itself.
 pub(super) type Numbers = Vec<Option<Located<f64>>>;
@@ -71,52 +74,41 @@ pub(super) struct CampaignTable {
 impl ScenarioTable {
     /// Reads a scenario. `None` if `text` is no TOML; everything that is wrong goes to `sink`.
     pub(super) fn read(text: &str, sink: &Sink) -> Option<Self> {
-        toml_reader::read(text, sink, |fields| Self {
-            name: string(fields.required("name", "name = \"my_scenario\"")).map(|name| name.value),
-            description: text_of(
-                fields.optional("description", "description = \"what it is about\""),
-            ),
-            arm: string(fields.required("arm", "arm = \"ssrms\"` or `arm = \"my_arm.toml\"")),
+        toml_reader::read(text, &SCENARIO, &format::SCENARIO, sink, |fields| Self {
+            name: string(fields.value(&format::NAME)).map(|name| name.value),
+            description: text_of(fields.value(&format::DESCRIPTION)),
+            arm: string(fields.value(&format::ARM)),
             angle_unit: AngleUnit::read(fields),
             motion: fields
-                .required(
-                    "motion",
-                    "[motion]` with kind, angles, start, goal, duration and blend below it",
-                )
+                .value(&format::MOTION)
                 .and_then(|value| value.table("[motion]", read_motion)),
-            failure: fields
-                .required("failure", "[failure]` with joints and times below it")
-                .and_then(|value| {
-                    value.table("[failure]", |failure| FailureTable {
-                        joints: list(failure.required("joints", "joints = [2]")),
-                        times: list(failure.required("times", "times = [10.0]")),
-                    })
-                }),
+            failure: fields.value(&format::FAILURE).and_then(|value| {
+                value.table("[failure]", |failure| FailureTable {
+                    joints: list(failure.value(&format::FAILED_JOINTS)),
+                    times: list(failure.value(&format::TIMES)),
+                })
+            }),
             cycle: fields
-                .required("control", "[control]` and below it `cycle = 0.01")
+                .value(&format::CONTROL)
                 .and_then(|value| {
-                    value.table("[control]", |control| {
-                        number(control.required("cycle", "cycle = 0.01"))
-                    })
+                    value.table("[control]", |control| number(control.value(&format::CYCLE)))
                 })
                 .flatten(),
-            search: fields
-                .required("search", "[search]` with start and step below it")
-                .and_then(|value| {
-                    value.table("[search]", |search| SearchTable {
-                        start: number(search.required("start", "start = 0.0")),
-                        step: number(search.required("step", "step = 1e6")),
-                    })
-                }),
+            search: fields.value(&format::SEARCH).and_then(|value| {
+                value.table("[search]", |search| SearchTable {
+                    start: number(search.value(&format::START)),
+                    step: number(search.value(&format::STEP)),
+                })
+            }),
             brake: fields
-                .optional("brake", "[brake]` and below it `duration = 0.1")
+                .value(&format::BRAKE)
                 .and_then(|value| value.table("[brake]", read_brake))
                 .unwrap_or_default(),
             experiments: fields
-                .required("experiment", "[[experiment]]` once for each tool force")
+                .value(&format::EXPERIMENTS)
                 .and_then(|value| read_experiments(value, sink)),
             campaign: fields
-                .optional("campaign", "[campaign]` and below it `cases = 10_000")
+                .value(&format::CAMPAIGN)
                 .and_then(|value| value.table("[campaign]", read_campaign))
                 .unwrap_or_default(),
         })
@@ -124,36 +116,24 @@ impl ScenarioTable {
 }
 
 fn read_brake(brake: &mut Fields<'_>) -> BrakeTable {
-    let profiles = [
-        ("constant", BrakeProfile::Constant),
-        ("smooth", BrakeProfile::Smooth),
-    ];
     BrakeTable {
-        duration: number(brake.optional("duration", "duration = 0.1")),
+        duration: number(brake.value(&format::BRAKE_DURATION)),
         profile: brake
-            .optional(
-                "profile",
-                "profile = \"constant\"` or `profile = \"smooth\"",
-            )
-            .and_then(|value| value.choice(&profiles))
+            .value(&format::PROFILE)
+            .and_then(Value::choice)
             .map(|profile| profile.value),
     }
 }
 
 fn read_campaign(fields: &mut Fields<'_>) -> CampaignTable {
+    let mut whole = |key| fields.value(key).and_then(Value::whole_number);
     CampaignTable {
-        cases: fields
-            .optional("cases", "cases = 10_000")
-            .and_then(Value::whole_number),
-        seed: fields
-            .optional("seed", "seed = 1")
-            .and_then(Value::whole_number),
-        failure_times: fields
-            .optional("failure_times", "failure_times = 20")
-            .and_then(Value::whole_number),
-        start_spread: number(fields.optional("start_spread", "start_spread = 0.5")),
-        goal_spread: number(fields.optional("goal_spread", "goal_spread = 0.5")),
-        force_spread: number(fields.optional("force_spread", "force_spread = 20.0")),
+        cases: whole(&campaign::CASES),
+        seed: whole(&campaign::SEED),
+        failure_times: whole(&campaign::FAILURE_TIMES),
+        start_spread: number(fields.value(&campaign::START_SPREAD)),
+        goal_spread: number(fields.value(&campaign::GOAL_SPREAD)),
+        force_spread: number(fields.value(&campaign::FORCE_SPREAD)),
     }
 }
 

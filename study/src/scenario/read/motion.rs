@@ -1,7 +1,8 @@
 //! `[motion]`.
 
 use super::{List, Number, list, number};
-use ulna_table::toml_reader::Fields;
+use crate::scenario::format::motion as format;
+use ulna_table::toml_reader::{Fields, Value};
 
 /// `[motion]`
 pub(in crate::scenario) struct MotionTable {
@@ -31,50 +32,40 @@ pub(in crate::scenario) enum PathTable {
     Tool(List),
 }
 
-#[derive(Clone, Copy)]
-enum MotionKind {
+/// What moves in a straight line.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(in crate::scenario) enum MotionKind {
     Joint,
     Tool,
 }
 
 pub(super) fn read_motion(motion: &mut Fields<'_>) -> MotionTable {
-    let kinds = [("joint", MotionKind::Joint), ("tool", MotionKind::Tool)];
-    let kind = motion
-        .required("kind", "kind = \"joint\"` or `kind = \"tool\"")
-        .and_then(|kind| kind.choice(&kinds));
-    let angles = [("dh", Angles::Dh), ("q", Angles::Q)];
+    let kind = motion.value(&format::KIND).and_then(Value::choice);
     MotionTable {
         angles: motion
-            .required("angles", "angles = \"dh\"` or `angles = \"q\"")
-            .and_then(|value| value.choice(&angles))
+            .value(&format::ANGLES)
+            .and_then(Value::choice)
             .map(|angles| angles.value),
-        start: list(motion.required(
-            "start",
-            "start = [0.0, 0.5]` with a number for each joint, `[0.0, 0.5]",
-        )),
+        start: list(motion.value(&format::START)),
         path: match kind.map(|kind| kind.value) {
-            Some(MotionKind::Joint) => Some(PathTable::Joint(list(
-                motion.required("goal", "goal = [1.0, 0.5]"),
-            ))),
-            Some(MotionKind::Tool) => Some(PathTable::Tool(list(motion.required(
-                "displacement",
-                "displacement = [0.0, 0.0, 0.5, 0.0, 0.0, 0.0]",
-            )))),
+            Some(kind) => {
+                let goal = motion.value_if(&format::GOAL, kind == MotionKind::Joint);
+                let displacement = motion.value_if(&format::DISPLACEMENT, kind == MotionKind::Tool);
+                Some(match kind {
+                    MotionKind::Joint => PathTable::Joint(list(goal)),
+                    MotionKind::Tool => PathTable::Tool(list(displacement)),
+                })
+            }
             None => {
                 // Either key may be meant: none is unknown.
-                motion.optional("goal", "goal = [1.0, 0.5]");
-                motion.optional(
-                    "displacement",
-                    "displacement = [0.0, 0.0, 0.5, 0.0, 0.0, 0.0]",
-                );
+                motion.permit(&format::GOAL);
+                motion.permit(&format::DISPLACEMENT);
                 None
             }
         },
-        duration: number(motion.required("duration", "duration = 20.0")),
-        blend: number(motion.required("blend", "blend = 4.0")),
-        max_velocity: list(motion.optional("max_velocity", "max_velocity = [0.5, 0.5]")),
-        max_acceleration: list(
-            motion.optional("max_acceleration", "max_acceleration = [0.1, 0.1]"),
-        ),
+        duration: number(motion.value(&format::DURATION)),
+        blend: number(motion.value(&format::BLEND)),
+        max_velocity: list(motion.value(&format::MAX_VELOCITY)),
+        max_acceleration: list(motion.value(&format::MAX_ACCELERATION)),
     }
 }

@@ -1,56 +1,58 @@
 //! `[campaign]`.
 
-use std::ops::RangeInclusive;
-
 use super::Reader;
 use crate::scenario::CampaignSettings;
+use crate::scenario::format::bounds::{MAX_CASES, MAX_FAILURE_TIMES};
+use crate::scenario::format::campaign::{self as format, DEFAULTS};
 use crate::scenario::read::{CampaignTable, Number};
-use ulna_table::toml_reader::{Bound, Located};
-
-const SPREAD: Bound = Bound {
-    range: 0.0..=100.0,
-    unit: "rad (m)",
-    help: "a spread is the largest deviation, not negative",
-};
-const FORCE_SPREAD: Bound = Bound {
-    range: 0.0..=1e7,
-    unit: "N (N m)",
-    help: "a spread is the largest deviation, not negative",
-};
-
-/// How many failure times there may be: each is a column of the figure.
-const FAILURE_TIMES: RangeInclusive<u64> = 1..=1000;
+use ulna_table::toml_reader::{Key, Located};
 
 impl Reader<'_> {
     pub(super) fn campaign(&self, table: &CampaignTable) -> Option<CampaignSettings> {
-        let count = |number: &Option<Located<u64>>, default: u64, range: RangeInclusive<u64>| {
+        let count = |number: &Option<Located<u64>>, default: u64, most: u64| {
             let Some(number) = number else {
                 return Some(default);
             };
-            if range.contains(&number.value) {
+            if (1..=most).contains(&number.value) {
                 return Some(number.value);
             }
             let message = format!("{} is out of bounds", number.name);
             self.refuse(
                 &number.span,
                 message,
-                format!("must be within {} to {}", range.start(), range.end()),
+                format!("must be within 1 to {most}"),
                 "write a count",
             );
             None
         };
-        let spread = |number: &Number, default: f64, bound: &Bound| match number {
-            Some(_) => self.bounded(number, bound),
+        let spread = |number: &Number, default: f64, key: &Key| match number {
+            Some(_) => self.bounded(number, key),
             None => Some(default),
         };
-        let cases = count(&table.cases, 10_000, CampaignSettings::CASES);
-        let failure_times = count(&table.failure_times, 20, FAILURE_TIMES);
-        let start_spread = spread(&table.start_spread, 0.5, &SPREAD);
-        let goal_spread = spread(&table.goal_spread, 0.5, &SPREAD);
-        let force_spread = spread(&table.force_spread, 20.0, &FORCE_SPREAD);
+        let cases = count(&table.cases, DEFAULTS.cases, MAX_CASES);
+        let failure_times = count(
+            &table.failure_times,
+            DEFAULTS.failure_times,
+            MAX_FAILURE_TIMES,
+        );
+        let start_spread = spread(
+            &table.start_spread,
+            DEFAULTS.start_spread,
+            &format::START_SPREAD,
+        );
+        let goal_spread = spread(
+            &table.goal_spread,
+            DEFAULTS.goal_spread,
+            &format::GOAL_SPREAD,
+        );
+        let force_spread = spread(
+            &table.force_spread,
+            DEFAULTS.force_spread,
+            &format::FORCE_SPREAD,
+        );
         Some(CampaignSettings {
             cases: cases?,
-            seed: table.seed.as_ref().map_or(1, |seed| seed.value),
+            seed: table.seed.as_ref().map_or(DEFAULTS.seed, |seed| seed.value),
             failure_times: failure_times?,
             start_spread: start_spread?,
             goal_spread: goal_spread?,

@@ -1,38 +1,14 @@
 //! `[[experiment]]`.
 
 use super::Reader;
+use crate::scenario::format::bounds::{MAX_COEFFICIENTS, MAX_FIGURES};
+use crate::scenario::format::experiment as format;
 use crate::scenario::read::{
     ExperimentTable, FigureTable, FigureWord, List, Numbers, RatedTable, ReferenceTable,
 };
 use crate::scenario::{Experiment, Figure, FigureKind, Reference, ToolForce};
 use ulna::Joint;
-use ulna_table::RATED_TORQUE;
-use ulna_table::toml_reader::{Bound, Located};
-
-const FORCE: Bound = Bound {
-    range: -1e7..=1e7,
-    unit: "N (N m) per power of s",
-    help: "forces are in newtons",
-};
-const RATED: Bound = Bound {
-    help: "a rated torque is positive; write \"none\" if there is none",
-    ..RATED_TORQUE
-};
-const FIGURE: Bound = Bound {
-    range: -1e16..=1e16,
-    unit: "",
-    help: "write the figure as it is printed",
-};
-const FAILURE_TIME: Bound = Bound {
-    range: 0.0..=1e5,
-    unit: "s",
-    help: "times are in seconds",
-};
-
-/// The highest power of time in a force, plus 1.
-const MAX_COEFFICIENTS: usize = 8;
-/// The most figures in a scenario: all are in memory before any is written.
-const MAX_FIGURES: usize = 100;
+use ulna_table::toml_reader::{Key, Located};
 
 impl Reader<'_> {
     /// The experiments; each section and each figure's name may be there once, and `times` are the failure times.
@@ -98,10 +74,10 @@ impl Reader<'_> {
 
     fn experiment(&self, table: &ExperimentTable, times: Option<&[f64]>) -> Option<Experiment> {
         let none: [Vec<f64>; 3] = Default::default();
-        let force = self.polynomials(&table.force);
+        let force = self.polynomials(&table.force, &format::FORCE);
         let moment = match &table.moment {
             None => Some(none),
-            moment => self.polynomials(moment),
+            moment => self.polynomials(moment, &format::MOMENT),
         };
         let rated_torque = table.rated_torque.as_ref().map(|rated| match rated {
             RatedTable::None => Some(None),
@@ -110,12 +86,12 @@ impl Reader<'_> {
                 Some(Some(self.joints?.iter().map(of_arm).collect()))
             }
             RatedTable::Common(rated) => {
-                let rated = RATED.admit(rated, self.sink)?;
+                let rated = format::RATED_TORQUE.admit(rated, self.sink)?;
                 Some(Some(vec![rated; self.joint_count?]))
             }
             RatedTable::Each(list) => {
                 let numbers = self.one_each(list)?;
-                Some(Some(RATED.admit_all(numbers, self.sink)?))
+                Some(Some(format::RATED_TORQUE.admit_all(numbers, self.sink)?))
             }
         });
         let references: Vec<_> = table
@@ -178,7 +154,11 @@ impl Reader<'_> {
         })
     }
 
-    fn polynomials(&self, list: &Option<Located<Vec<Option<Numbers>>>>) -> Option<[Vec<f64>; 3]> {
+    fn polynomials(
+        &self,
+        list: &Option<Located<Vec<Option<Numbers>>>>,
+        key: &Key,
+    ) -> Option<[Vec<f64>; 3]> {
         let list = list.as_ref()?;
         let admit = |component: &Option<Numbers>| {
             let component = component.as_ref()?;
@@ -197,7 +177,7 @@ impl Reader<'_> {
                 );
                 return None;
             }
-            FORCE.admit_all(component, self.sink)
+            key.admit_all(component, self.sink)
         };
         let components: Vec<_> = list.value.iter().map(admit).collect();
         let count = components.len();
@@ -221,20 +201,23 @@ impl Reader<'_> {
             Some(list) => self.joint_numbers(list),
             None => self.joint_count.map(|count| (0..count).collect()),
         };
-        let time = self.bounded(&table.time, &FAILURE_TIME);
+        let time = self.bounded(&table.time, &format::REFERENCE_TIME);
         let joints = joints?;
-        let spread = |list: &List| {
+        let spread = |list: &List, key: &Key| {
             let mut row = vec![None; self.joint_count?];
             if list.is_some() {
                 let numbers = self.counted(list, joints.len(), "a figure for each joint")?;
-                for (joint, figure) in joints.iter().zip(FIGURE.admit_all(numbers, self.sink)?) {
+                for (joint, figure) in joints.iter().zip(key.admit_all(numbers, self.sink)?) {
                     row[*joint] = Some(figure);
                 }
             }
             Some(row)
         };
-        let (before, after) = (spread(&table.before), spread(&table.after));
-        let coefficients = spread(&table.coefficients);
+        let (before, after) = (
+            spread(&table.before, &format::BEFORE),
+            spread(&table.after, &format::AFTER),
+        );
+        let coefficients = spread(&table.coefficients, &format::COEFFICIENTS);
         Some(Reference {
             source: table.source.clone(),
             time: time?,

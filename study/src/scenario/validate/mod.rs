@@ -6,6 +6,8 @@ mod failure;
 mod motion;
 
 use super::arm::ScenarioArm;
+use super::format::bounds::{DURATION, MAX_CYCLES, MAX_STUDIES};
+use super::format::{self, DEFAULT_BRAKE};
 use super::read::{
     ExperimentTable, FailureTable, List, MotionTable, Number, Numbers, ScenarioTable, SearchTable,
 };
@@ -13,41 +15,7 @@ use super::{BrakeSettings, Scenario, SearchGrid};
 use ulna::Joint;
 use ulna_table::AngleUnit;
 use ulna_table::diagnostics::{Diagnostic, Sink};
-use ulna_table::toml_reader::{Bound, Located};
-
-const DURATION: Bound = Bound {
-    range: 1e-3..=1e5,
-    unit: "s",
-    help: "times are in seconds",
-};
-const CYCLE: Bound = Bound {
-    range: 1e-5..=10.0,
-    unit: "s",
-    help: "a control cycle is in seconds, for example 0.01",
-};
-const BRAKE: Bound = Bound {
-    range: 1e-6..=10.0,
-    unit: "s",
-    help: "a brake takes its joint to rest in a finite time, for example 0.1 s",
-};
-/// How long a brake takes, s, in a scenario that does not say.
-const DEFAULT_BRAKE: f64 = 0.1;
-const COEFFICIENT: Bound = Bound {
-    range: -1e16..=1e16,
-    unit: "",
-    help: "the paper's coefficients are of the size 1e7",
-};
-const STEP: Bound = Bound {
-    range: 1e-6..=1e16,
-    unit: "",
-    help: "a step is positive; the paper's are 1e6 and 1e7",
-};
-/// The most control cycles in a motion: a search keeps each in memory, with all that a compensation is made of,
-/// and as many searches run at once as there are cores. For 7 joints that is 8 KB for each cycle and core.
-const MAX_CYCLES: f64 = 1e4;
-/// The most studies, experiments times failure times: the series and figures of all are in memory before any is written,
-/// some 1 MB for each with 7 joints.
-const MAX_STUDIES: usize = 100;
+use ulna_table::toml_reader::{Key, Located};
 
 /// What the lists of a scenario are checked against.
 struct Reader<'s> {
@@ -87,7 +55,7 @@ impl ScenarioTable {
             .and_then(|tables| reader.experiments(tables, times));
         let studies = reader.studies(self.failure.as_ref(), self.experiments.as_deref());
         let brake = match &self.brake.duration {
-            Some(_) => reader.bounded(&self.brake.duration, &BRAKE),
+            Some(_) => reader.bounded(&self.brake.duration, &format::BRAKE_DURATION),
             None => Some(DEFAULT_BRAKE),
         };
         let brake = brake.map(|duration| BrakeSettings {
@@ -146,7 +114,7 @@ impl Reader<'_> {
     }
 
     fn cycle(&self, cycle: &Number, duration: Option<f64>) -> Option<f64> {
-        let value = self.bounded(cycle, &CYCLE)?;
+        let value = self.bounded(cycle, &format::CYCLE)?;
         let cycle = cycle.as_ref()?;
         if duration.is_some_and(|duration| duration / value > MAX_CYCLES) {
             let message = format!(
@@ -182,16 +150,16 @@ impl Reader<'_> {
     }
 
     fn search(&self, table: &SearchTable) -> Option<SearchGrid> {
-        let start = self.bounded(&table.start, &COEFFICIENT);
-        let step = self.bounded(&table.step, &STEP);
+        let start = self.bounded(&table.start, &format::START);
+        let step = self.bounded(&table.step, &format::STEP);
         Some(SearchGrid {
             start: start?,
             step: step?,
         })
     }
 
-    fn bounded(&self, number: &Number, bound: &Bound) -> Option<f64> {
-        bound.admit(number.as_ref()?, self.sink)
+    fn bounded(&self, number: &Number, key: &Key) -> Option<f64> {
+        key.admit(number.as_ref()?, self.sink)
     }
 
     fn for_each_joint<'l>(&self, list: &'l List) -> Option<&'l Numbers> {

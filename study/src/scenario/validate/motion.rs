@@ -2,35 +2,15 @@
 
 use nalgebra::Vector6;
 
-use super::{DURATION, Reader};
+use super::Reader;
 use crate::scenario::arm::zero_position;
+use crate::scenario::format::bounds::{DURATION, POSITION, RATE, TOOL_DURATION};
+use crate::scenario::format::motion as format;
 use crate::scenario::motion::{Motion, Path};
 use crate::scenario::read::{Angles, List, MotionTable, Numbers, PathTable};
 use ulna::{Joint, JointKind};
 use ulna_table::AngleUnit;
 use ulna_table::toml_reader::{Bound, Located};
-
-const POSITION: Bound = Bound {
-    range: -100.0..=100.0,
-    unit: "rad (m)",
-    help: "if angles are in degrees, write `angle_unit = \"deg\"`",
-};
-const RATE: Bound = Bound {
-    range: 1e-9..=1e6,
-    unit: "rad/s, rad/s^2 (m/s, m/s^2)",
-    help: "a limit is positive; leave the key out if there is none",
-};
-const DISPLACEMENT: Bound = Bound {
-    range: -100.0..=100.0,
-    unit: "m, rad",
-    help: "three lengths in metres, then a rotation vector in radians",
-};
-/// A knot every 0.02 s is integrated and kept, and a campaign does it for every case.
-const TOOL_DURATION: Bound = Bound {
-    range: 1e-3..=1e3,
-    unit: "s for a motion of the tool",
-    help: "write a shorter duration, or `kind = \"joint\"`",
-};
 
 impl MotionTable {
     /// How many joints the motion is for, if its lists agree about it.
@@ -52,7 +32,7 @@ impl Reader<'_> {
             PathTable::Tool(displacement) => {
                 let numbers =
                     self.counted(displacement, 6, "three lengths and a rotation vector")?;
-                let numbers = DISPLACEMENT.admit_all(numbers, self.sink)?;
+                let numbers = format::DISPLACEMENT.admit_all(numbers, self.sink)?;
                 Some(Path::Tool(Vector6::from_column_slice(&numbers)))
             }
         });
@@ -60,7 +40,8 @@ impl Reader<'_> {
             Some(PathTable::Tool(_)) => &TOOL_DURATION,
             _ => &DURATION,
         };
-        let duration = self.bounded(&table.duration, bound);
+        let duration = table.duration.as_ref();
+        let duration = duration.and_then(|duration| bound.admit(duration, self.sink));
         let blend = table.blend.as_ref();
         let blend = blend.and_then(|blend| self.blend(blend, duration));
         let max_velocity = self.limits(&table.max_velocity);

@@ -1,0 +1,73 @@
+//! `[campaign]`.
+
+use super::bounds::{FORCE_SPREAD as FORCE_SPREAD_BOUND, MAX_CASES, MAX_FAILURE_TIMES, SPREAD};
+use crate::scenario::CampaignSettings;
+use ulna_table::toml_reader::{Key, Kind, Limit, Need, Section};
+
+/// What counts where a key is left out.
+pub(in crate::scenario) const DEFAULTS: CampaignSettings = CampaignSettings {
+    cases: 10_000,
+    seed: 1,
+    failure_times: 20,
+    start_spread: 0.5,
+    goal_spread: 0.5,
+    force_spread: 20.0,
+};
+
+pub(super) static CAMPAIGN: Section = Section {
+    header: "[campaign]",
+    meaning: "At most once: all ranges are symmetric and uniform",
+    example: "[campaign]\ncases = 10_000\nseed = 1\nfailure_times = 20\nstart_spread = 0.5\ngoal_spread = 0.5\nforce_spread = 20.0\n",
+    keys: &[
+        &CASES,
+        &SEED,
+        &FAILURE_TIMES,
+        &START_SPREAD,
+        &GOAL_SPREAD,
+        &FORCE_SPREAD,
+    ],
+};
+
+pub(in crate::scenario) static CASES: Key =
+    Key::required("cases", Kind::Whole, "How many cases", "`cases = 10_000`")
+        .limits(&[Limit::Count(MAX_CASES)])
+        .need(Need::Default(|| DEFAULTS.cases.to_string()));
+pub(in crate::scenario) static SEED: Key = Key::required(
+    "seed",
+    Kind::Whole,
+    "The seed of all random numbers",
+    "`seed = 1`",
+)
+.need(Need::Default(|| DEFAULTS.seed.to_string()));
+pub(in crate::scenario) static FAILURE_TIMES: Key = Key::required(
+    "failure_times",
+    Kind::Whole,
+    "How many failure times, evenly spread over the motion",
+    "`failure_times = 20`",
+)
+.limits(&[Limit::Count(MAX_FAILURE_TIMES)])
+.need(Need::Default(|| DEFAULTS.failure_times.to_string()));
+pub(in crate::scenario) static START_SPREAD: Key = Key::required(
+    "start_spread",
+    Kind::Number,
+    "Each joint's start is moved by at most so much",
+    "`start_spread = 0.5`",
+)
+.limits(&[Limit::Within(&SPREAD)])
+.need(Need::Default(|| format!("{:?}", DEFAULTS.start_spread)));
+pub(in crate::scenario) static GOAL_SPREAD: Key = Key::required(
+    "goal_spread",
+    Kind::Number,
+    "Each joint's goal is moved by at most so much",
+    "`goal_spread = 0.5`",
+)
+.limits(&[Limit::Within(&SPREAD)])
+.need(Need::Default(|| format!("{:?}", DEFAULTS.goal_spread)));
+pub(in crate::scenario) static FORCE_SPREAD: Key = Key::required(
+    "force_spread",
+    Kind::Number,
+    "Each component of the tool force that the task has is within so much, constant in time",
+    "`force_spread = 20.0`",
+)
+.limits(&[Limit::Within(&FORCE_SPREAD_BOUND)])
+.need(Need::Default(|| format!("{:?}", DEFAULTS.force_spread)));

@@ -1,0 +1,64 @@
+//! The words of a scenario.
+
+use crate::scenario::read::{Angles, FigureWord, MotionKind, RatedWord};
+use crate::simulation::BrakeProfile;
+use ulna_table::toml_reader::{Choice, Word};
+
+impl Choice for MotionKind {
+    const WORDS: &'static [Word<Self>] = &[
+        Word::new(
+            "joint",
+            Self::Joint,
+            "a trapezoid of the joints' velocities, to `goal`",
+        ),
+        Word::new(
+            "tool",
+            Self::Tool,
+            "a straight line of the tool, by `displacement`",
+        ),
+    ];
+}
+
+impl Choice for Angles {
+    const WORDS: &'static [Word<Self>] = &[
+        Word::new(
+            "dh",
+            Self::Dh,
+            "theta + q (or d + q), what stands in the joint's row",
+        ),
+        Word::new("q", Self::Q, "measured from the table's configuration"),
+    ];
+}
+
+impl Choice for BrakeProfile {
+    const WORDS: &'static [Word<Self>] = &[
+        Word::new("constant", Self::Constant, "constant deceleration"),
+        Word::new(
+            "smooth",
+            Self::Smooth,
+            "a deceleration that grows from 0 and falls back to it",
+        ),
+    ];
+}
+
+impl Choice for RatedWord {
+    const WORDS: &'static [Word<Self>] = &[
+        Word::new("none", Self::None, "no limit"),
+        Word::new("table", Self::OfArm, "the arm's own"),
+    ];
+}
+
+impl Choice for FigureWord {
+    const WORDS: &'static [Word<Self>] = &[
+        Word::new(
+            "torque",
+            Self::Torque,
+            "torques of some joints over time, without and with suppression",
+        ),
+        Word::new(
+            "impact",
+            Self::Impact,
+            "the impact joint by joint, before and after, at every failure time",
+        ),
+    ];
+}
