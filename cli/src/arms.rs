@@ -1,7 +1,8 @@
 //! From the arm of a scenario, known at run time, to a type.
 
 use anyhow::bail;
-use ulna::{Arm, SerialChain};
+use ulna::SerialChain;
+use ulna_study::experiment::AnyArm;
 use ulna_study::scenario::{KnownArm, ScenarioArm};
 
 use crate::joints::{ForChain, with_chain};
@@ -12,7 +13,7 @@ pub(crate) trait ForArm {
     type Output;
 
     /// Does it.
-    fn run<A: Arm<N> + Sync, const N: usize>(self, arm: &A) -> Self::Output;
+    fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output;
 }
 
 macro_rules! generated_arms {

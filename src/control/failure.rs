@@ -177,7 +177,7 @@ pub fn impact_torque<const N: usize>(
 /// The motors' part of the impact torque (Eq. 12) of any arm, as the difference of two calls of its inverse dynamics
 /// plus Jᵀ `ΔF_e`: the same as [`impact_torque`]'s, without the structure's part.
 pub fn impact_torque_of<const N: usize>(
-    arm: &impl Arm<N>,
+    arm: &(impl Arm<N> + ?Sized),
     state: &JointState<N>,
     locked: LockedJoints<N>,
     delta_wrench: &Vector6<f64>,

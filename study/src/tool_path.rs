@@ -45,7 +45,7 @@ impl<const N: usize> ToolPath<N> {
     ///
     /// Refuses lines that make no motion, poses with a conditioning below [`NEAR_SINGULAR`], and joint rates beyond `limits`.
     pub fn straight(
-        arm: &impl Arm<N>,
+        arm: &(impl Arm<N> + ?Sized),
         start: &SVector<f64, N>,
         line: &StraightLine,
         limits: &JointLimits<N>,
@@ -96,13 +96,13 @@ impl<const N: usize> ToolPath<N> {
     }
 }
 
-struct Resolver<'a, A, const N: usize> {
+struct Resolver<'a, A: ?Sized, const N: usize> {
     arm: &'a A,
     displacement: Vector6<f64>,
     limits: &'a JointLimits<N>,
 }
 
-impl<A: Arm<N>, const N: usize> Resolver<'_, A, N> {
+impl<A: Arm<N> + ?Sized, const N: usize> Resolver<'_, A, N> {
     /// `steps` + 1 knots from `q` at the time `start`, with the path's speed growing by `acceleration`.
     fn phase(
         &self,

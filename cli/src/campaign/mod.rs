@@ -13,9 +13,8 @@ use anyhow::Context;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
-use ulna::Arm;
 use ulna_study::Scenario;
-use ulna_study::experiment::Campaign;
+use ulna_study::experiment::{AnyArm, Campaign};
 use ulna_study::scenario::CampaignSettings;
 
 use crate::arms::{ForArm, GENERATED, with_arm};
@@ -92,17 +91,23 @@ struct Work<'s> {
 impl ForArm for Work<'_> {
     type Output = anyhow::Result<(Vec<Row>, FolderLock)>;
 
-    fn run<A: Arm<N> + Sync, const N: usize>(self, arm: &A) -> Self::Output {
+    fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
+        let campaign = Campaign::new(arm, self.scenario)?;
+        self.all(&|index| Row::of(&campaign.case(index)))
+    }
+}
+
+impl Work<'_> {
+    /// All rows, by `make`: apart from the campaign, so that this is not compiled for each number of joints.
+    fn all(&self, make: &(dyn Fn(u64) -> Row + Sync)) -> anyhow::Result<(Vec<Row>, FolderLock)> {
         /// So many cases are made before they are written.
         const CHUNK: u64 = 500;
-        let campaign = Campaign::new(arm, self.scenario)?;
         let folder = &self.arguments.output;
         fs::create_dir_all(folder)
             .with_context(|| format!("cannot make the folder {}", folder.display()))?;
         let lock = FolderLock::take(folder)?;
         let cases = self.scenario.campaign().cases();
         let identity = Identity::of(self.scenario);
-        let make = |index| Row::of(&campaign.case(index));
         let mut file = CampaignFile::open(folder, cases, &identity, make)?;
         let found = file.rows();
         if found > 0 {

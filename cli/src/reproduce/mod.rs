@@ -12,9 +12,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use rayon::prelude::*;
-use ulna::Arm;
 use ulna_study::Scenario;
-use ulna_study::experiment::{ExperimentError, Laboratory, Study, Truth};
+use ulna_study::experiment::{AnyArm, ExperimentError, Laboratory, Study, Truth};
 use ulna_study::scenario::Experiment;
 
 use crate::arms::{ForArm, GENERATED, with_arm};
@@ -104,24 +103,38 @@ struct Work<'s>(&'s Scenario);
 impl ForArm for Work<'_> {
     type Output = Result<Findings, ExperimentError>;
 
-    fn run<A: Arm<N> + Sync, const N: usize>(self, arm: &A) -> Self::Output {
-        let (experiments, failure_times) = (self.0.experiments(), self.0.failure_times());
+    fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
         let laboratory = Laboratory::new(arm, self.0)?;
-        let pairs = experiments.iter().flat_map(|experiment| {
-            let times = failure_times.iter();
-            times.map(move |time| (experiment, *time))
-        });
-        // Each stands by itself, and the order of the results is that of the pairs.
-        let pairs: Vec<_> = pairs.collect();
-        let studies = pairs
-            .into_par_iter()
-            .map(|(experiment, time)| laboratory.study(experiment, time));
-        let truths = failure_times
-            .par_iter()
-            .map(|time| laboratory.truth(&experiments[0], *time));
-        Ok(Findings {
-            studies: studies.collect::<Result<_, _>>()?,
-            truths: truths.collect(),
-        })
+        let study = |experiment: &Experiment, time| laboratory.study(experiment, time);
+        let truth = |experiment: &Experiment, time| laboratory.truth(experiment, time);
+        explore(self.0, &study, &truth)
     }
+}
+
+/// One experiment with the failure at one time, s.
+type Attempt<'l, T> = dyn Fn(&Experiment, f64) -> Result<T, ExperimentError> + Sync + 'l;
+
+/// Everything that is asked of a laboratory, side by side. Apart from it, so that this is not compiled for each number of joints.
+fn explore(
+    scenario: &Scenario,
+    study: &Attempt<'_, Study>,
+    truth: &Attempt<'_, Truth>,
+) -> Result<Findings, ExperimentError> {
+    let (experiments, failure_times) = (scenario.experiments(), scenario.failure_times());
+    let pairs = experiments.iter().flat_map(|experiment| {
+        let times = failure_times.iter();
+        times.map(move |time| (experiment, *time))
+    });
+    // Each stands by itself, and the order of the results is that of the pairs.
+    let pairs: Vec<_> = pairs.collect();
+    let studies = pairs
+        .into_par_iter()
+        .map(|(experiment, time)| study(experiment, time));
+    let truths = failure_times
+        .par_iter()
+        .map(|time| truth(&experiments[0], *time));
+    Ok(Findings {
+        studies: studies.collect::<Result<_, _>>()?,
+        truths: truths.collect(),
+    })
 }

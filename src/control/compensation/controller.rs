@@ -30,14 +30,14 @@ pub struct Cycle<const N: usize> {
 
 /// The suppression controller of one arm: constant data, and a [`cycle`](Self::cycle) without allocation in bounded time.
 #[derive(Clone, Copy, Debug)]
-pub struct Controller<'a, A, const N: usize> {
+pub struct Controller<'a, A: ?Sized, const N: usize> {
     arm: &'a A,
     compensation: Compensation<N>,
     projector: Projector,
     rated_torque: SVector<f64, N>,
 }
 
-impl<'a, A: Arm<N>, const N: usize> Controller<'a, A, N> {
+impl<'a, A: Arm<N> + ?Sized, const N: usize> Controller<'a, A, N> {
     /// A controller with the static projector and the arm's own rated torques.
     pub fn new(arm: &'a A, compensation: Compensation<N>) -> Self {
         Self {

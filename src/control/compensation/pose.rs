@@ -41,7 +41,7 @@ impl<const N: usize> TaskPose<N> {
     /// Looks at `arm` in `q` with `locked` joints.
     #[inline]
     pub fn new(
-        arm: &impl Arm<N>,
+        arm: &(impl Arm<N> + ?Sized),
         q: &SVector<f64, N>,
         locked: LockedJoints<N>,
         projector: Projector,

@@ -1,21 +1,23 @@
 //! [`Campaign`]: a scenario with every joint failing at many times, from random starts to random goals, under random forces.
 
+use std::fmt;
+
 use nalgebra::{SVector, Vector6};
 
-use super::ExperimentError;
+use super::{AnyArm, ExperimentError};
 use crate::scenario::Scenario;
 use crate::search::{
     ForcePriority, Objective, Operation, OperationOptions, SearchError, cancel_per_joint,
     least_impact, optimal,
 };
+use ulna::Trajectory;
 use ulna::control::failure::{Failure, LockedJoints};
 use ulna::proof::random::SplitMix64;
-use ulna::{Arm, Trajectory};
 
 /// The cases of a campaign. Each is a function of the seed and its number alone.
-#[derive(Clone, Copy, Debug)]
-pub struct Campaign<'a, A, const N: usize> {
-    arm: &'a A,
+#[derive(Clone, Copy)]
+pub struct Campaign<'a, const N: usize> {
+    arm: &'a AnyArm<N>,
     scenario: &'a Scenario,
 }
 
@@ -49,7 +51,15 @@ pub struct CampaignOutcome {
     pub locked_before: f64,
 }
 
-impl<'a, A: Arm<N>, const N: usize> Campaign<'a, A, N> {
+impl<const N: usize> fmt::Debug for Campaign<'_, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Campaign")
+            .field("scenario", self.scenario)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a, const N: usize> Campaign<'a, N> {
     /// At so many times a motion is looked at, for the limits.
     const SAMPLES: f64 = 100.0;
 
@@ -57,7 +67,7 @@ impl<'a, A: Arm<N>, const N: usize> Campaign<'a, A, N> {
     ///
     /// # Errors
     /// When the scenario's own motion cannot be flown, as by another arm.
-    pub fn new(arm: &'a A, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
+    pub fn new(arm: &'a AnyArm<N>, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
         scenario.motion().plan(arm, super::KNOT_PERIOD)?;
         Ok(Self { arm, scenario })
     }

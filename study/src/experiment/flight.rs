@@ -2,11 +2,11 @@
 
 use nalgebra::SVector;
 
-use super::list;
-use crate::scenario::ToolForce;
+use super::{AnyArm, list};
+use crate::scenario::{PlannedMotion, ToolForce};
+use ulna::Trajectory;
 use ulna::control::compensation::{Controller, Cycle, Status};
 use ulna::control::failure::{Failure, LockedJoints};
-use ulna::{Arm, Trajectory};
 
 /// What a flight was like.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,9 +41,9 @@ impl Flight {
     const SERIES: f64 = 400.0;
 
     /// Flies `motion` with `failure` in it, one call of `controller` every `cycle` s, the tool exerting `force`.
-    pub fn fly<A: Arm<N>, const N: usize>(
-        controller: &Controller<'_, A, N>,
-        motion: &impl Trajectory<N>,
+    pub fn fly<const N: usize>(
+        controller: &Controller<'_, AnyArm<N>, N>,
+        motion: &PlannedMotion<N>,
         force: &ToolForce,
         failure: &Failure<N>,
         cycle: f64,
@@ -100,10 +100,10 @@ impl<const N: usize> Record<N> {
         }
     }
 
-    fn fly<A: Arm<N>>(
+    fn fly(
         &mut self,
-        controller: &Controller<'_, A, N>,
-        motion: &impl Trajectory<N>,
+        controller: &Controller<'_, AnyArm<N>, N>,
+        motion: &PlannedMotion<N>,
         force: &ToolForce,
         failure: &Failure<N>,
         (time, locked): (f64, LockedJoints<N>),

@@ -1,29 +1,39 @@
 //! [`Laboratory`]: an arm on the motion of a scenario, and the experiments made with it.
 
+use std::fmt;
+
 use nalgebra::SVector;
 
 use super::{
-    Case, ExperimentError, Flight, KNOT_PERIOD, Method, Search, Study, Tradeoff, list, rated_torque,
+    AnyArm, Case, ExperimentError, Flight, KNOT_PERIOD, Method, Search, Study, Tradeoff, list,
+    rated_torque,
 };
 use crate::scenario::{Experiment, PlannedMotion, Scenario};
 use crate::search::{
     CoefficientLaw, ForcePriority, FrontierPoint, Objective, Operation, OperationOptions, Outcome,
     SearchError, Stepwise, cancel_per_joint, equivalent_per_joint, frontier, least_impact, optimal,
 };
-use ulna::Arm;
 use ulna::control::compensation::{Compensation, Controller};
 use ulna::control::failure::{Failure, LockedJoints};
 
 /// An arm on the motion of a scenario, ready for its experiments.
-#[derive(Clone, Debug)]
-pub struct Laboratory<'a, A, const N: usize> {
-    pub(super) arm: &'a A,
+#[derive(Clone)]
+pub struct Laboratory<'a, const N: usize> {
+    pub(super) arm: &'a AnyArm<N>,
     pub(super) scenario: &'a Scenario,
     motion: PlannedMotion<N>,
     failed_joints: LockedJoints<N>,
 }
 
-impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
+impl<const N: usize> fmt::Debug for Laboratory<'_, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Laboratory")
+            .field("scenario", self.scenario)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a, const N: usize> Laboratory<'a, N> {
     /// How many points of a frontier are computed.
     const FRONTIER_POINTS: u32 = 20;
 
@@ -31,7 +41,7 @@ impl<'a, A: Arm<N>, const N: usize> Laboratory<'a, A, N> {
     ///
     /// # Errors
     /// When `arm` is not the scenario's, or cannot fly its motion.
-    pub fn new(arm: &'a A, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
+    pub fn new(arm: &'a AnyArm<N>, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
         let motion = scenario.motion().plan(arm, KNOT_PERIOD)?;
         let failed = scenario.failed_joints();
         let failed_joints = LockedJoints::new(failed).ok_or_else(|| ExperimentError::Joint {

@@ -15,6 +15,7 @@ use nalgebra::SVector;
 use crate::scenario::{Experiment, PlanError};
 use crate::search::SearchError;
 use crate::simulation::{Ending, SimulationError};
+use ulna::Arm;
 
 pub use campaign::{Campaign, CampaignCase, CampaignOutcome};
 pub use case::{Case, Method, Search, Study, Tradeoff};
@@ -59,6 +60,9 @@ pub enum ExperimentError {
         ending: Ending,
     },
 }
+
+/// An arm of `N` joints, whatever its backend: experiments are compiled once for each number of joints.
+pub type AnyArm<const N: usize> = dyn Arm<N> + Sync;
 
 /// The largest time between two knots of a tool path, s.
 const KNOT_PERIOD: f64 = 0.02;

@@ -4,14 +4,14 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 
-use super::{ExperimentError, Laboratory, Method, list, rated_torque};
+use super::{AnyArm, ExperimentError, Laboratory, Method, list, rated_torque};
 use crate::scenario::Experiment;
 use crate::simulation::{
     Brake, Control, Ending, Feedback, Impact, Outcome, Resolution, Sample, Simulation,
 };
+use ulna::Trajectory;
 use ulna::control::compensation::{Compensation, Controller};
 use ulna::control::failure::{Failure, LockedJoints};
-use ulna::{Arm, Trajectory};
 
 /// One experiment and one failure time, simulated with brakes that take time.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,7 +86,7 @@ const RESOLUTION: Resolution = Resolution {
 /// How fast departures from the plan die out, rad/s.
 const FEEDBACK: f64 = 5.0;
 
-impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
+impl<const N: usize> Laboratory<'_, N> {
     /// One experiment with the brakes falling at `failure_time`.
     ///
     /// # Errors
@@ -149,7 +149,7 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
         };
         let controller = self.controller(experiment, compensation)?;
         let (impact, outcome) =
-            self.simulate(experiment, compensation, brake, start..end, |sample| {
+            self.simulate(experiment, compensation, brake, start..end, &mut |sample| {
                 run.time.push(sample.time);
                 run.torque.push(list(&sample.joint_torque()));
                 let wrench = experiment.force().at(sample.time);
@@ -180,12 +180,17 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
         let mut peak_brake_torque = 0.0_f64;
         // From the planned state on, so that the ideal lock is the same for all.
         let span = time..time + brake.duration * 1.01;
-        let (impact, outcome) =
-            self.simulate(experiment, Compensation::none(), brake, span, |sample| {
+        let (impact, outcome) = self.simulate(
+            experiment,
+            Compensation::none(),
+            brake,
+            span,
+            &mut |sample| {
                 if sample.elapsed <= brake.duration {
                     peak_brake_torque = peak_brake_torque.max(sample.brake.amax());
                 }
-            })?;
+            },
+        )?;
         let difference = impact.brake_impulse - impact.ideal.brake;
         let ideal = impact.ideal.brake;
         let failed = |vector: &SVector<f64, N>| joints.iter().map(|joint| vector[joint]).collect();
@@ -208,7 +213,7 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
         &self,
         experiment: &Experiment,
         compensation: Compensation<N>,
-    ) -> Result<Controller<'_, A, N>, ExperimentError> {
+    ) -> Result<Controller<'_, AnyArm<N>, N>, ExperimentError> {
         let rated = rated_torque(experiment)?;
         Ok(Controller::new(self.arm, compensation).with_rated_torque(rated))
     }
@@ -219,7 +224,7 @@ impl<A: Arm<N>, const N: usize> Laboratory<'_, A, N> {
         compensation: Compensation<N>,
         brake: Brake<N>,
         span: Range<f64>,
-        observe: impl FnMut(&Sample<N>),
+        observe: &mut dyn FnMut(&Sample<N>),
     ) -> Result<(Impact<N>, Outcome<N>), ExperimentError> {
         let simulation = Simulation {
             plant: self.arm,

@@ -91,7 +91,7 @@ impl Motion {
     /// When the motion cannot be flown: it is that of another arm, too fast for a joint, or leads through a singular pose.
     pub fn plan<const N: usize>(
         &self,
-        arm: &impl Arm<N>,
+        arm: &(impl Arm<N> + ?Sized),
         knot_period: f64,
     ) -> Result<PlannedMotion<N>, PlanError> {
         let start = for_each_joint(&self.start)?;

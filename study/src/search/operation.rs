@@ -89,7 +89,7 @@ impl<const N: usize> Operation<N> {
     /// Looks at the motion of `arm` along `trajectory`, whose tool is to exert `wrench(t)` (`[f; n]`, world axes), with `failure` in it.
     /// The healthy joints keep to their plan.
     pub fn new(
-        arm: &impl Arm<N>,
+        arm: &(impl Arm<N> + ?Sized),
         trajectory: &impl Trajectory<N>,
         wrench: impl Fn(f64) -> Vector6<f64>,
         failure: &Failure<N>,

@@ -90,7 +90,7 @@ pub struct LockImpulse<const N: usize> {
 /// (Featherstone, *Rigid Body Dynamics Algorithms*, 11.7: impulsive dynamics).
 /// `None` if rounding leaves M without a Cholesky factor, as only absurd arguments can.
 pub fn ideal_lock<const N: usize>(
-    arm: &impl Arm<N>,
+    arm: &(impl Arm<N> + ?Sized),
     q: &SVector<f64, N>,
     qd: &SVector<f64, N>,
     locked: LockedJoints<N>,

@@ -63,7 +63,7 @@ use run::Run;
 
 /// An arm, its controller, its task and its failure.
 #[derive(Clone, Copy, Debug)]
-pub struct Simulation<'a, P, A, T, W, const N: usize> {
+pub struct Simulation<'a, P: ?Sized, A: ?Sized, T, W, const N: usize> {
     /// The arm as it is. The controller may have another picture of it.
     pub plant: &'a P,
     /// What drives it.
@@ -188,8 +188,12 @@ pub enum SimulationError {
     FailureTime(f64),
 }
 
-impl<P: Arm<N>, A: Arm<N>, T: Trajectory<N>, W: Fn(f64) -> Vector6<f64>, const N: usize>
-    Simulation<'_, P, A, T, W, N>
+impl<P, A, T, W, const N: usize> Simulation<'_, P, A, T, W, N>
+where
+    P: Arm<N> + ?Sized,
+    A: Arm<N> + ?Sized,
+    T: Trajectory<N>,
+    W: Fn(f64) -> Vector6<f64>,
 {
     /// Runs from the planned state at `span.start`, s, to `span.end` and shows every sample to `observe`, in order of time.
     ///
@@ -201,12 +205,12 @@ impl<P: Arm<N>, A: Arm<N>, T: Trajectory<N>, W: Fn(f64) -> Vector6<f64>, const N
         &self,
         span: Range<f64>,
         resolution: &Resolution,
-        observe: impl FnMut(&Sample<N>),
+        mut observe: impl FnMut(&Sample<N>),
     ) -> Result<Outcome<N>, SimulationError> {
         self.check(&span, resolution)?;
         let start = self.trajectory.state(span.start);
         let start = Flow::new(start.q, start.qd);
-        let mut run = Run::new(self, resolution, observe, start);
+        let mut run = Run::new(self, resolution, &mut observe, start);
         let ending = run.through(&span);
         Ok(Outcome {
             ending,

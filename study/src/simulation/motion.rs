@@ -43,8 +43,12 @@ pub(super) struct Instant<const N: usize> {
     pub(super) slope: Flow<N>,
 }
 
-impl<P: Arm<N>, A: Arm<N>, T: Trajectory<N>, W: Fn(f64) -> Vector6<f64>, const N: usize>
-    Simulation<'_, P, A, T, W, N>
+impl<P, A, T, W, const N: usize> Simulation<'_, P, A, T, W, N>
+where
+    P: Arm<N> + ?Sized,
+    A: Arm<N> + ?Sized,
+    T: Trajectory<N>,
+    W: Fn(f64) -> Vector6<f64>,
 {
     /// The instant `elapsed` s after the failure.
     ///

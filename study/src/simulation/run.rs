@@ -14,10 +14,11 @@ use ulna::{Arm, LockedJoints, Status};
 /// Samples between two events are at least so many, so that a short brake is seen too.
 const SAMPLES_PER_PHASE: f64 = 16.0;
 
-pub(super) struct Run<'a, 's, P, A, T, W, O, const N: usize> {
+pub(super) struct Run<'a, 's, P: ?Sized, A: ?Sized, T, W, const N: usize> {
     simulation: &'a Simulation<'s, P, A, T, W, N>,
     resolution: &'a Resolution,
-    observe: O,
+    /// Behind a pointer, so that a run is compiled once, whoever looks on.
+    observe: &'a mut dyn FnMut(&Sample<N>),
     /// The end of the run, s after the failure. All times of a run count from there: a short brake's are not rounded then
     /// as the time of day is.
     end: f64,
@@ -33,18 +34,17 @@ pub(super) struct Run<'a, 's, P, A, T, W, O, const N: usize> {
     settled: bool,
 }
 
-impl<'a, 's, P, A, T, W, O, const N: usize> Run<'a, 's, P, A, T, W, O, N>
+impl<'a, 's, P, A, T, W, const N: usize> Run<'a, 's, P, A, T, W, N>
 where
-    P: Arm<N>,
-    A: Arm<N>,
+    P: Arm<N> + ?Sized,
+    A: Arm<N> + ?Sized,
     T: Trajectory<N>,
     W: Fn(f64) -> Vector6<f64>,
-    O: FnMut(&Sample<N>),
 {
     pub(super) fn new(
         simulation: &'a Simulation<'s, P, A, T, W, N>,
         resolution: &'a Resolution,
-        observe: O,
+        observe: &'a mut dyn FnMut(&Sample<N>),
         flow: Flow<N>,
     ) -> Self {
         Self {

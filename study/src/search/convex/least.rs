@@ -7,28 +7,25 @@ use super::limits::TorqueLimits;
 use super::pseudo_inverse::pseudo_inverse;
 use crate::search::{SearchError, SolveStatus};
 
-pub(super) type Solve = Result<Option<Solution>, SearchError>;
-
 /// `min ‖step + R x‖` within the limits: by the pseudoinverse if they do not bind. R comes with the size of what it is computed from.
 pub(super) fn least_squares(
     (impact, size): (&DMatrix<f64>, f64),
     step: &DVector<f64>,
     limits: &TorqueLimits,
-    solve: impl FnOnce(Program) -> Solve,
 ) -> Result<Solution, SearchError> {
     let x = -pseudo_inverse(impact, size) * step;
     if limits.admit(&x) {
         return Ok(Solution::closed_form(x));
     }
-    least_squares_program(impact, step, limits, solve)
+    least_squares_program(impact, step, limits, &|_| ())
 }
 
-/// The same by the solver, `solve`, which may add constraints: with r = step + R x, `min ½ ‖r‖²`.
+/// The same by the solver, with the constraints that `constrain` adds: with r = step + R x, `min ½ ‖r‖²`.
 pub(super) fn least_squares_program(
     impact: &DMatrix<f64>,
     step: &DVector<f64>,
     limits: &TorqueLimits,
-    solve: impl FnOnce(Program) -> Solve,
+    constrain: &dyn Fn(&mut Program),
 ) -> Result<Solution, SearchError> {
     let (joints, variables) = impact.shape();
     let mut program = Program::new(variables + joints);
@@ -39,7 +36,8 @@ pub(super) fn least_squares_program(
     }
     program.equal(&definition, (-step).as_slice());
     program.at_most(&limits.map, &limits.room);
-    let mut solution = solve(program)?.ok_or_else(|| limits.tightest())?;
+    constrain(&mut program);
+    let mut solution = program.solve()?.ok_or_else(|| limits.tightest())?;
     solution.x = solution.x.rows(0, variables).into_owned();
     Ok(solution)
 }

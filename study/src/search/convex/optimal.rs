@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use nalgebra::{DMatrix, DVector, SVector, Vector6};
 
-use super::conic::{Program, Solution};
+use super::conic::Solution;
 use super::healthy_part;
 use super::least::{least_squares, least_squares_program};
 use super::limits::TorqueLimits;
@@ -44,72 +44,13 @@ pub fn optimal<const N: usize>(
 ) -> Result<Outcome<N>, SearchError> {
     let clock = Instant::now();
     let [before, after] = [operation.before(), operation.after()].map(FreeMap::new);
-    let variables = before.torque.ncols() + after.torque.ncols();
-    let from_all = |map: &DMatrix<f64>, first: usize| {
-        let mut wide = DMatrix::zeros(map.nrows(), variables);
-        wide.columns_mut(first, map.ncols()).copy_from(map);
-        wide
-    };
-    let torque_before = from_all(&before.torque, 0);
-    let torque_after = from_all(&after.torque, before.torque.ncols());
-    let force_before = from_all(&before.force, 0);
-    let force_after = from_all(&after.force, before.torque.ncols());
-    let force = stack(&force_before, &force_after);
     let healthy: Vec<usize> = operation.healthy().collect();
-    let impact = (&torque_after - &torque_before).select_rows(&healthy);
     let step = healthy_part(operation, &operation.step());
-    let samples = [
-        (operation.before(), torque_before),
-        (operation.after(), torque_after),
-    ];
-    let limits = TorqueLimits::new(operation, samples.into_iter(), variables);
-
-    let solution = match priority {
-        ForcePriority::Exact | ForcePriority::AtMost(0.0) => {
-            // Without limits, within the null space of E.
-            let keeping = null_space(&force);
-            let x = -(&keeping * pseudo_inverse(&(&impact * &keeping), impact.amax())) * &step;
-            if limits.admit(&x) {
-                Solution::closed_form(x)
-            } else {
-                least_squares_program(&impact, &step, &limits, |mut program| {
-                    program.equal(&force, &vec![0.0; force.nrows()]);
-                    program.solve()
-                })?
-            }
-        }
-        ForcePriority::AtMost(radius) if radius > 0.0 => {
-            let least = least_squares_program(&impact, &step, &limits, |mut program| {
-                if radius.is_finite() {
-                    program.norm_at_most(&force_before, radius);
-                    program.norm_at_most(&force_after, radius);
-                }
-                program.solve()
-            })?;
-            let forces = [&force_before, &force_after];
-            least.with_least_force(&impact, forces, radius, &limits)?
-        }
-        ForcePriority::Weight(weight) if weight > 0.0 && weight.is_finite() => {
-            let weighted = stack(&impact, &(&force * weight));
-            let step = step.clone().resize_vertically(weighted.nrows(), 0.0);
-            least_squares((&weighted, weighted.amax()), &step, &limits, Program::solve)?
-        }
-        ForcePriority::AtMost(value) => {
-            return Err(SearchError::Argument {
-                name: "force error allowed",
-                range: "at least 0 N",
-                value,
-            });
-        }
-        ForcePriority::Weight(value) => {
-            return Err(SearchError::Argument {
-                name: "weight of the force error",
-                range: "a finite number above 0 m",
-                value,
-            });
-        }
-    };
-    let solution = solution.with_least_variables(&stack(&impact, &force), &limits);
+    let problem = Problem::new([&before, &after], &healthy, step);
+    let samples = [operation.before(), operation.after()].into_iter();
+    let samples = samples.zip(problem.torques.iter().cloned());
+    let limits = TorqueLimits::new(operation, samples, problem.impact.ncols());
+    let solution = problem.solve(priority, &limits)?;
     let seconds = clock.elapsed().as_secs_f64();
     let (x_before, x_after) = solution.x.as_slice().split_at(before.torque.ncols());
     let compensation = Compensation::Optimal {
@@ -134,8 +75,100 @@ pub fn frontier<const N: usize>(
     allowed.iter().map(point).collect()
 }
 
+/// The problem for any number of joints: apart from [`optimal()`], so that this is compiled once.
+struct Problem {
+    /// U of all joints just before and just after the lock, by all variables.
+    torques: [DMatrix<f64>; 2],
+    /// h, likewise.
+    forces: [DMatrix<f64>; 2],
+    /// One on the other.
+    force: DMatrix<f64>,
+    /// What the healthy joints' steps gain.
+    impact: DMatrix<f64>,
+    /// The healthy joints' steps without compensation.
+    step: DVector<f64>,
+}
+
+impl Problem {
+    fn new([before, after]: [&FreeMap; 2], healthy: &[usize], step: DVector<f64>) -> Self {
+        let first = before.torque.ncols();
+        let variables = first + after.torque.ncols();
+        let from_all = |map: &DMatrix<f64>, first: usize| {
+            let mut wide = DMatrix::zeros(map.nrows(), variables);
+            wide.columns_mut(first, map.ncols()).copy_from(map);
+            wide
+        };
+        let torques = [from_all(&before.torque, 0), from_all(&after.torque, first)];
+        let forces = [from_all(&before.force, 0), from_all(&after.force, first)];
+        Self {
+            force: stack(&forces[0], &forces[1]),
+            impact: (&torques[1] - &torques[0]).select_rows(healthy),
+            torques,
+            forces,
+            step,
+        }
+    }
+
+    fn solve(
+        &self,
+        priority: ForcePriority,
+        limits: &TorqueLimits,
+    ) -> Result<Solution, SearchError> {
+        let Self {
+            force,
+            impact,
+            step,
+            ..
+        } = self;
+        let solution = match priority {
+            ForcePriority::Exact | ForcePriority::AtMost(0.0) => {
+                // Without limits, within the null space of E.
+                let keeping = null_space(force);
+                let x = -(&keeping * pseudo_inverse(&(impact * &keeping), impact.amax())) * step;
+                if limits.admit(&x) {
+                    Solution::closed_form(x)
+                } else {
+                    least_squares_program(impact, step, limits, &|program| {
+                        program.equal(force, &vec![0.0; force.nrows()]);
+                    })?
+                }
+            }
+            ForcePriority::AtMost(radius) if radius > 0.0 => {
+                let least = least_squares_program(impact, step, limits, &|program| {
+                    if radius.is_finite() {
+                        program.norm_at_most(&self.forces[0], radius);
+                        program.norm_at_most(&self.forces[1], radius);
+                    }
+                })?;
+                let [before, after] = &self.forces;
+                least.with_least_force(impact, [before, after], radius, limits)?
+            }
+            ForcePriority::Weight(weight) if weight > 0.0 && weight.is_finite() => {
+                let weighted = stack(impact, &(force * weight));
+                let step = step.clone().resize_vertically(weighted.nrows(), 0.0);
+                least_squares((&weighted, weighted.amax()), &step, limits)?
+            }
+            ForcePriority::AtMost(value) => {
+                return Err(SearchError::Argument {
+                    name: "force error allowed",
+                    range: "at least 0 N",
+                    value,
+                });
+            }
+            ForcePriority::Weight(value) => {
+                return Err(SearchError::Argument {
+                    name: "weight of the force error",
+                    range: "a finite number above 0 m",
+                    value,
+                });
+            }
+        };
+        Ok(solution.with_least_variables(&stack(impact, force), limits))
+    }
+}
+
 /// `U = P z + Jᵀ f` at one sample as a map of few variables: P's range and the task's rows of f.
-struct FreeMap<const N: usize> {
+struct FreeMap {
     /// U, N × variables.
     torque: DMatrix<f64>,
     /// h, task rows × variables.
@@ -146,8 +179,8 @@ struct FreeMap<const N: usize> {
     rows: Vec<usize>,
 }
 
-impl<const N: usize> FreeMap<N> {
-    fn new(sample: &Sample<N>) -> Self {
+impl FreeMap {
+    fn new<const N: usize>(sample: &Sample<N>) -> Self {
         let pose = &sample.pose;
         let unit = |i: usize| SVector::<f64, N>::from_fn(|j, _| f64::from(u8::from(i == j)));
         let mut projector = DMatrix::zeros(N, N);
@@ -177,7 +210,7 @@ impl<const N: usize> FreeMap<N> {
         }
     }
 
-    fn parameters(&self, x: &[f64]) -> FreeTorque<N> {
+    fn parameters<const N: usize>(&self, x: &[f64]) -> FreeTorque<N> {
         let (null, forces) = x.split_at(self.null.ncols());
         let torque = &self.null * DVector::from_column_slice(null);
         let mut wrench = Vector6::zeros();

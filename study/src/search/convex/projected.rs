@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-use super::conic::Program;
 use super::healthy_part;
 use super::least::{least_squares, min_max};
 use super::limits::TorqueLimits;
@@ -50,7 +49,7 @@ pub fn least_impact<const N: usize>(
     let limits = TorqueLimits::new(operation, samples, active.len());
 
     let solution = match objective {
-        Objective::LeastSquares => least_squares((&impact, 1.0), &step, &limits, Program::solve)?,
+        Objective::LeastSquares => least_squares((&impact, 1.0), &step, &limits)?,
         Objective::MinMax => min_max(&impact, &step, &limits)?,
     };
     let solution = solution.with_least_variables(&impact, &limits);
