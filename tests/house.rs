@@ -52,3 +52,24 @@ fn arrows_go_one_way() {
         assert_eq!(own, *allowed, "{name}");
     }
 }
+
+/// Without square roots and sines from anywhere, one message says what to write.
+#[test]
+fn neither_std_nor_libm_is_told_what_to_write() {
+    let check = [
+        "check",
+        "--quiet",
+        "--package",
+        "ulna",
+        "--no-default-features",
+    ];
+    let output = Command::new(env!("CARGO"))
+        .args(check)
+        .env("CARGO_TERM_COLOR", "never")
+        .env("CARGO_TARGET_DIR", env!("CARGO_TARGET_TMPDIR"))
+        .output()
+        .unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert!(!output.status.success());
+    assert!(stderr.contains("write `features = [\"libm\"]`"), "{stderr}");
+}
