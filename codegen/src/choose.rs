@@ -3,7 +3,7 @@
 use ulna::Method;
 use ulna_table::Model;
 
-use crate::accuracy::{Conditioned, Yardstick};
+use crate::accuracy::{Conditioned, TestStates};
 use crate::formulate::chain::Chain;
 use crate::formulate::{Choices, IN_ORDER, task};
 use crate::graph::Graph;
@@ -20,15 +20,15 @@ const EXACT: f64 = 1e-10;
 const WAYS: [(bool, usize); 4] = [(false, 2), (false, 3), (true, 2), (true, 3)];
 
 /// Tries the Jacobian in every frame, for J itself and for w_D, and for w_D its rows in two orders.
-pub(super) fn choose(model: &Model, yardstick: &Yardstick) -> Choices {
+pub(super) fn choose(model: &Model, states: &TestStates) -> Choices {
     let none = Choices {
-        singular: yardstick.singular_everywhere,
+        singular: states.singular_everywhere,
         ..Choices::default()
     };
     let frames = 0..=Chain::new(&Graph::new(), model).groups.len();
     let worlds = frames.clone().map(|world| Choices { world, ..none });
     let worlds = [worlds.collect()].into_iter();
-    let world = cheapest_that_is_exact(model, Method::GeometricJacobian, worlds, yardstick);
+    let world = cheapest_that_is_exact(model, Method::GeometricJacobian, worlds, states);
     let ways = WAYS.into_iter().map(|(articulated, passes)| {
         let in_frame = |task: usize| {
             let as_listed = Choices {
@@ -38,14 +38,14 @@ pub(super) fn choose(model: &Model, yardstick: &Yardstick) -> Choices {
                 passes,
                 ..none
             };
-            let order = longest_first(model, as_listed, yardstick);
+            let order = longest_first(model, as_listed, states);
             [as_listed, Choices { order, ..as_listed }]
         };
         let mut all: Vec<Choices> = frames.clone().flat_map(in_frame).collect();
         all.dedup();
         all
     });
-    let task = cheapest_that_is_exact(model, GRADIENT, ways, yardstick).unwrap_or(none);
+    let task = cheapest_that_is_exact(model, GRADIENT, ways, states).unwrap_or(none);
     Choices {
         world: world.unwrap_or(none).world,
         ..task
@@ -53,13 +53,13 @@ pub(super) fn choose(model: &Model, yardstick: &Yardstick) -> Choices {
 }
 
 /// The order of the task's rows in which H's are longest first.
-fn longest_first(model: &Model, choices: Choices, yardstick: &Yardstick) -> [usize; 6] {
+fn longest_first(model: &Model, choices: Choices, states: &TestStates) -> [usize; 6] {
     if choices.singular || model.task().len() == 1 {
         return choices.order;
     }
     let graph = Graph::new();
     let lengths = task::squared_lengths(&Chain::new(&graph, model), choices);
-    yardstick.longest_first(&schedule(&graph, &lengths))
+    states.longest_first(&schedule(&graph, &lengths))
 }
 
 /// How exact w_D and ∇w_D are.
@@ -67,7 +67,7 @@ pub(super) fn conditioned(
     model: &Model,
     methods: &[MethodProgram],
     choices: Choices,
-    yardstick: &Yardstick,
+    states: &TestStates,
 ) -> Option<Conditioned> {
     let gradient = methods
         .iter()
@@ -84,7 +84,7 @@ pub(super) fn conditioned(
     let graph = Graph::new();
     let outputs = task::sensitivity(&Chain::new(&graph, model), as_listed);
     let sensitivity = schedule(&graph, &outputs);
-    yardstick.conditioned(model, &gradient.program, &sensitivity)
+    states.conditioned(model, &gradient.program, &sensitivity)
 }
 
 /// Of the first of `ways` in which a program's error is small enough, the choices of the shortest such program;
@@ -93,7 +93,7 @@ fn cheapest_that_is_exact(
     model: &Model,
     method: Method,
     ways: impl Iterator<Item = Vec<Choices>>,
-    yardstick: &Yardstick,
+    states: &TestStates,
 ) -> Option<Choices> {
     let mut most_exact: Option<(f64, Choices)> = None;
     for way in ways {
@@ -104,7 +104,7 @@ fn cheapest_that_is_exact(
         // A stable sort: of programs of one length the first is kept.
         candidates.sort_by_key(|(_, program)| program.steps.len());
         for (choices, program) in &candidates {
-            let error = yardstick.error(program);
+            let error = states.error(program);
             if error <= EXACT {
                 return Some(*choices);
             }

@@ -1,4 +1,4 @@
-//! [`DoubleDouble`]: numbers of 106 bits, the generator's yardstick.
+//! [`DoubleDouble`]: numbers of 106 bits, the generator's measure of rounding errors.
 //!
 //! Constants are folded in them, so that what is emitted is rounded once, and programs are run in them, so that
 //! the rounding of the same program in `f64` can be measured ([`crate::accuracy`]).

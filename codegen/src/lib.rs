@@ -60,7 +60,7 @@ pub use interpret::{Exact, Interpreter};
 pub use op::Op;
 pub use schedule::{Operand, Output, Program, Size, Step};
 
-use accuracy::Yardstick;
+use accuracy::TestStates;
 use choose::{choose, conditioned};
 use formulate::Choices;
 use formulate::chain::Chain;
@@ -100,34 +100,34 @@ pub fn generate(model: &Model, source: &str) -> Generated {
 
 /// Every method of [`ulna::Arm`] as a program.
 pub fn compile(model: &Model) -> Compiled {
-    let yardstick = Yardstick::new(model);
-    let choices = choose(model, &yardstick);
+    let states = TestStates::new(model);
+    let choices = choose(model, &states);
     let methods = Method::ALL.iter().map(|method| {
         let program = compile_method(model, *method, choices);
         MethodProgram {
             method: *method,
-            error: yardstick.error(&program),
+            error: states.error(&program),
             program,
         }
     });
     let methods: Vec<MethodProgram> = methods.collect();
     Compiled {
-        conditioned: conditioned(model, &methods, choices, &yardstick),
+        conditioned: conditioned(model, &methods, choices, &states),
         methods,
-        states: [yardstick.random(), yardstick.near_singular],
-        warnings: warnings_of(&yardstick),
+        states: [states.random(), states.near_singular],
+        warnings: warnings_of(&states),
     }
 }
 
 /// What the user should know of an arm before there is code for it; a sentence each.
 pub fn warnings(model: &Model) -> Vec<String> {
-    warnings_of(&Yardstick::new(model))
+    warnings_of(&TestStates::new(model))
 }
 
-fn warnings_of(yardstick: &Yardstick) -> Vec<String> {
+fn warnings_of(states: &TestStates) -> Vec<String> {
     let singular = "w_D is 0 in every configuration: the task's rows of J depend on each other; \
                     leave out of [task] rows what the arm cannot move";
-    let found = yardstick.singular_everywhere.then(|| singular.to_owned());
+    let found = states.singular_everywhere.then(|| singular.to_owned());
     found.into_iter().collect()
 }
 

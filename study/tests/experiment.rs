@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use ulna::{SerialChain, Status};
 use ulna_generated::{Planar2r, Ssrms};
 use ulna_study::Scenario;
-use ulna_study::experiment::{Case, ExperimentError, Laboratory, Method, Study};
+use ulna_study::experiment::{Case, ExperimentError, ExperimentRunner, SearchMethod, Study};
 use ulna_study::scenario::KnownArm;
 use ulna_study::search::SearchError;
 
@@ -32,11 +32,14 @@ fn studies() -> &'static [Study] {
     static STUDIES: OnceLock<Vec<Study>> = OnceLock::new();
     STUDIES.get_or_init(|| {
         let scenario = scenario(&[("cycle = 0.01", "cycle = 0.05")]);
-        Laboratory::new(&Ssrms, &scenario).unwrap().run().unwrap()
+        ExperimentRunner::new(&Ssrms, &scenario)
+            .unwrap()
+            .run()
+            .unwrap()
     })
 }
 
-fn case(section: &str, time: f64, method: Method) -> &'static Case {
+fn case(section: &str, time: f64, method: SearchMethod) -> &'static Case {
     let mut studies = studies().iter();
     let study = studies.find(|study| study.section == section && study.failure_time == time);
     study.unwrap().case(method)
@@ -62,7 +65,7 @@ fn every_experiment_time_and_method_is_there_in_order() {
     assert_eq!(found, expected);
     for study in studies() {
         let methods: Vec<_> = study.cases.iter().map(|case| case.method).collect();
-        assert_eq!(methods, Method::ALL);
+        assert_eq!(methods, SearchMethod::ALL);
     }
 }
 
@@ -74,7 +77,7 @@ fn impact_before_is_that_of_the_prototype() {
         [7.66, 54.81, 14.28, 0.339, 0.070, 0.574],
     ];
     for (time, expected) in TIMES.into_iter().zip(expected) {
-        let before = &case("5.2", time, Method::PerJoint).impact_before;
+        let before = &case("5.2", time, SearchMethod::PerJoint).impact_before;
         for (joint, expected) in expected.into_iter().enumerate() {
             assert_close(
                 before[joint],
@@ -91,7 +94,7 @@ fn impact_before_is_that_of_the_prototype() {
 #[test]
 fn eq_16_cancels_every_joint_at_the_prototypes_coefficients() {
     for time in TIMES {
-        let case = case("5.2", time, Method::PerJoint);
+        let case = case("5.2", time, SearchMethod::PerJoint);
         for joint in 0..6 {
             let left = case.impact_after[joint] / case.impact_before[joint];
             assert!(left <= 0.01, "joint {} at {time} s: {left}", joint + 1);
@@ -102,9 +105,9 @@ fn eq_16_cancels_every_joint_at_the_prototypes_coefficients() {
                 .all(|percent| *percent >= 99.0)
         );
         // The price: the tool force.
-        assert!(case.force_error > 5.0 && case.flight.max_force_error > 100.0);
+        assert!(case.force_error > 5.0 && case.rollout.max_force_error > 100.0);
     }
-    let coefficients = &case("5.2", 10.0, Method::PerJoint).coefficients;
+    let coefficients = &case("5.2", 10.0, SearchMethod::PerJoint).coefficients;
     for (joint, expected) in [5.11e7, -8.07e7, 3.90e7, -3.75e7, 1.08e7, 0.78e7]
         .into_iter()
         .enumerate()
@@ -124,8 +127,8 @@ fn eq_16_cancels_every_joint_at_the_prototypes_coefficients() {
 fn the_papers_search_comes_within_half_a_step_of_the_exact_one() {
     for time in TIMES {
         let (steps, exact) = (
-            case("5.2", time, Method::StepwisePerJoint),
-            case("5.2", time, Method::PerJoint),
+            case("5.2", time, SearchMethod::StepwisePerJoint),
+            case("5.2", time, SearchMethod::PerJoint),
         );
         for joint in 0..6 {
             let (found, best) = (steps.coefficients[joint], exact.coefficients[joint]);
@@ -147,9 +150,9 @@ fn the_papers_search_comes_within_half_a_step_of_the_exact_one() {
 #[test]
 fn eq_20_keeps_the_force_and_leaves_what_the_prototype_left() {
     for (time, expected) in TIMES.into_iter().zip([18.97, 9.97, 16.19]) {
-        for method in [Method::Projected, Method::StepwiseProjected] {
+        for method in [SearchMethod::Projected, SearchMethod::StepwiseProjected] {
             let case = case("5.2", time, method);
-            assert!(case.flight.max_force_error <= 1e-6);
+            assert!(case.rollout.max_force_error <= 1e-6);
             let (_, after) = case.healthy_impact();
             assert_close(after, expected, 1e-2, &format!("{method:?} at {time} s"));
         }
@@ -159,8 +162,8 @@ fn eq_20_keeps_the_force_and_leaves_what_the_prototype_left() {
 #[test]
 fn optimal_is_the_physical_limit_and_never_worse_than_a_law() {
     for (time, expected) in TIMES.into_iter().zip([17.70, 6.59, 14.98]) {
-        let case = case("5.2", time, Method::Optimal);
-        assert!(case.flight.max_force_error <= 1e-6);
+        let case = case("5.2", time, SearchMethod::Optimal);
+        assert!(case.rollout.max_force_error <= 1e-6);
         assert_close(
             case.healthy_impact().1,
             expected,
@@ -170,7 +173,10 @@ fn optimal_is_the_physical_limit_and_never_worse_than_a_law() {
     }
     for study in studies() {
         let frontier = &study.tradeoff.as_ref().unwrap().frontier;
-        let (exact, optimal) = (study.case(Method::Projected), study.case(Method::Optimal));
+        let (exact, optimal) = (
+            study.case(SearchMethod::Projected),
+            study.case(SearchMethod::Optimal),
+        );
         assert!(optimal.healthy_impact().1 <= exact.healthy_impact().1 * (1.0 + 1e-9));
         // It falls, and ends where there is nothing left, long before the force error of Eq. 16.
         assert!(
@@ -179,7 +185,7 @@ fn optimal_is_the_physical_limit_and_never_worse_than_a_law() {
                 .all(|pair| pair[1].1 <= pair[0].1 + 1e-6 && pair[1].0 >= pair[0].0 - 1e-6)
         );
         let (force, impact) = *frontier.last().unwrap();
-        let per_joint = study.case(Method::PerJoint);
+        let per_joint = study.case(SearchMethod::PerJoint);
         assert!(force < per_joint.force_error && impact < 1e-4);
         assert!(impact <= per_joint.healthy_impact().1 + 1e-4);
     }
@@ -190,7 +196,7 @@ fn rated_torques_bind_and_are_kept() {
     for section in ["5.3", "5.4"] {
         let mut bound = 0;
         for time in TIMES {
-            for method in Method::ALL {
+            for method in SearchMethod::ALL {
                 let case = case(section, time, method);
                 assert!(
                     case.search.is_ok(),
@@ -198,26 +204,26 @@ fn rated_torques_bind_and_are_kept() {
                     case.search
                 );
                 let rated = case.rated_torque.as_ref().unwrap();
-                let flown = case.flight.max_torque.iter().zip(rated);
-                for (torque, rated) in flown.clone() {
+                let executed = case.rollout.max_torque.iter().zip(rated);
+                for (torque, rated) in executed.clone() {
                     assert!(
                         *torque <= rated * (1.0 + 1e-12),
                         "{section} at {time} s, {method:?}"
                     );
                 }
-                bound += flown
+                bound += executed
                     .filter(|(torque, rated)| **torque >= *rated * (1.0 - 1e-6))
                     .count();
                 // Motion and tool force alone leave room.
-                assert!(case.flight.status < Status::Overloaded);
+                assert!(case.rollout.status < Status::Overloaded);
             }
         }
         assert!(bound >= 4, "{section}: {bound}");
     }
     // What binds costs suppression.
     let (free, bound) = (
-        case("5.2", 10.0, Method::PerJoint),
-        case("5.3", 10.0, Method::PerJoint),
+        case("5.2", 10.0, SearchMethod::PerJoint),
+        case("5.3", 10.0, SearchMethod::PerJoint),
     );
     assert!(bound.healthy_impact().1 > 100.0 * free.healthy_impact().1);
 }
@@ -231,15 +237,15 @@ fn the_papers_rated_torque_is_out_of_reach() {
             "rated_torque = 300.0",
         ),
     ]);
-    let laboratory = Laboratory::new(&Ssrms, &scenario).unwrap();
-    let study = laboratory.study(&scenario.experiments()[1], 10.0).unwrap();
-    let case = study.case(Method::PerJoint);
+    let runner = ExperimentRunner::new(&Ssrms, &scenario).unwrap();
+    let study = runner.study(&scenario.experiments()[1], 10.0).unwrap();
+    let case = study.case(SearchMethod::PerJoint);
     assert!(
         matches!(case.search, Err(SearchError::Empty { joint: 3, .. })),
         "{:?}",
         case.search
     );
-    assert_eq!(case.flight.status, Status::Overloaded);
+    assert_eq!(case.rollout.status, Status::Overloaded);
     assert_eq!(case.coefficients, [0.0; 7]);
 }
 
@@ -247,13 +253,13 @@ fn the_papers_rated_torque_is_out_of_reach() {
 fn a_varying_force_does_not_change_the_impact_of_a_lock_in_no_time() {
     for time in TIMES {
         let (constant, varying) = (
-            case("5.2", time, Method::PerJoint),
-            case("5.4", time, Method::PerJoint),
+            case("5.2", time, SearchMethod::PerJoint),
+            case("5.4", time, SearchMethod::PerJoint),
         );
         for (a, b) in constant.impact_before.iter().zip(&varying.impact_before) {
             assert!((a - b).abs() < 1e-9);
         }
-        let force = varying.flight.series.force.last().unwrap();
+        let force = varying.rollout.series.force.last().unwrap();
         assert!((force[0] - 160.0).abs() < 1e-9 && force[3] == 0.0);
     }
 }
@@ -262,7 +268,7 @@ fn a_varying_force_does_not_change_the_impact_of_a_lock_in_no_time() {
 fn series_show_the_lock_from_both_sides() {
     for study in studies() {
         for case in &study.cases {
-            let series = &case.flight.series;
+            let series = &case.rollout.series;
             let lock = series
                 .time
                 .iter()
@@ -294,8 +300,8 @@ fn the_generic_path_finds_the_same() {
     let scenario = scenario(&[("cycle = 0.01", "cycle = 0.5")]);
     let experiment = &scenario.experiments()[0];
     let chain: SerialChain<7> = Ssrms::CHAIN;
-    let generated = Laboratory::new(&Ssrms, &scenario).unwrap();
-    let generic = Laboratory::new(&chain, &scenario).unwrap();
+    let generated = ExperimentRunner::new(&Ssrms, &scenario).unwrap();
+    let generic = ExperimentRunner::new(&chain, &scenario).unwrap();
     let [generated, generic] = [
         generated.study(experiment, 10.0).unwrap(),
         generic.study(experiment, 10.0).unwrap(),
@@ -327,10 +333,10 @@ fn an_experiment_of_another_arm_is_refused() {
     };
     let planar = Scenario::parse(PLANAR, "planar.toml", Path::new(""), &[planar]).unwrap();
     let paper_like = scenario(&[]);
-    let laboratory = Laboratory::new(&Ssrms, &paper_like).unwrap();
+    let runner = ExperimentRunner::new(&Ssrms, &paper_like).unwrap();
     let refusals = [
-        laboratory.study(&planar.experiments()[0], 1.0).unwrap_err(),
-        laboratory.truth(&planar.experiments()[0], 1.0).unwrap_err(),
+        runner.study(&planar.experiments()[0], 1.0).unwrap_err(),
+        runner.truth(&planar.experiments()[0], 1.0).unwrap_err(),
     ];
     for refusal in refusals {
         let expected = "the experiment is for 2 joints, the arm has 7";
@@ -342,16 +348,16 @@ fn an_experiment_of_another_arm_is_refused() {
 fn another_arm_and_an_impossible_motion_are_refused() {
     let paper_like = scenario(&[]);
     let planar = Planar2r;
-    let refusal = Laboratory::new(&planar, &paper_like).unwrap_err();
+    let refusal = ExperimentRunner::new(&planar, &paper_like).unwrap_err();
     assert_eq!(
         refusal.to_string(),
-        "the motion cannot be flown: the motion is for 7 joints, the arm has 2"
+        "the motion cannot be executed: the motion is for 7 joints, the arm has 2"
     );
     let fast = scenario(&[(
         "blend = 4.455",
         "blend = 4.455\nmax_velocity = [1, 1, 0.2, 1, 1, 1, 1]",
     )]);
-    let refusal = Laboratory::new(&Ssrms, &fast).unwrap_err();
+    let refusal = ExperimentRunner::new(&Ssrms, &fast).unwrap_err();
     assert!(matches!(refusal, ExperimentError::Motion(_)));
     assert!(
         refusal.to_string().contains("joint 3 would need 0.283"),
@@ -362,8 +368,8 @@ fn another_arm_and_an_impossible_motion_are_refused() {
 #[test]
 fn the_simulated_lock_balances_and_tends_to_the_ideal_one() {
     let scenario = scenario(&[]);
-    let laboratory = Laboratory::new(&Ssrms, &scenario).unwrap();
-    let truth = laboratory.truth(&scenario.experiments()[0], 10.0).unwrap();
+    let runner = ExperimentRunner::new(&Ssrms, &scenario).unwrap();
+    let truth = runner.truth(&scenario.experiments()[0], 10.0).unwrap();
     let mut last = f64::INFINITY;
     for point in &truth.convergence {
         assert!(
@@ -382,7 +388,7 @@ fn the_simulated_lock_balances_and_tends_to_the_ideal_one() {
         assert_eq!(run.time.len(), run.torque.len());
         assert_eq!(run.time.len(), run.predicted_torque.len());
     }
-    let before = &case("5.2", 10.0, Method::PerJoint).impact_before;
+    let before = &case("5.2", 10.0, SearchMethod::PerJoint).impact_before;
     for (predicted, before) in without.predicted_step.iter().zip(before) {
         assert!((predicted.abs() - before).abs() < 1e-9);
     }

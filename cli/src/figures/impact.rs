@@ -5,7 +5,7 @@ use plotters::element::Text;
 use plotters::prelude::DrawingBackend;
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, VPos};
-use ulna_study::experiment::{Case, Method, Study};
+use ulna_study::experiment::{Case, SearchMethod, Study};
 
 use super::chart::{Axes, Key, bar_panel, legend, panel, range};
 use super::law::{LAWS, WITHOUT, WITHOUT_LABEL};
@@ -47,7 +47,11 @@ impl Figure for Impacts<'_> {
             force(area, pen, study)?;
         }
         let values = self.studies.iter().flat_map(|study| {
-            let before = study.case(Method::PerJoint).impact_before.iter().copied();
+            let before = study
+                .case(SearchMethod::PerJoint)
+                .impact_before
+                .iter()
+                .copied();
             before.chain(
                 LAWS.into_iter()
                     .flat_map(|law| study.case(law.method).impact_after.iter().copied()),
@@ -80,14 +84,14 @@ fn force<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study) -> Drawn<
             .sqrt()
     };
     let given = |case: &Case| {
-        let series = &case.flight.series;
+        let series = &case.rollout.series;
         let forces = series.force.iter().zip(&series.force_error);
         let points = series.time.iter().zip(forces);
         points
             .map(|(time, (force, error))| (*time, size(force, error)))
             .collect::<Vec<_>>()
     };
-    let series = &study.case(Method::PerJoint).flight.series;
+    let series = &study.case(SearchMethod::PerJoint).rollout.series;
     let asked: Vec<_> = series
         .time
         .iter()
@@ -116,7 +120,7 @@ fn force<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study) -> Drawn<
 
 /// A group of bars for each joint, on a logarithmic axis.
 fn bars<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study, top: f64) -> Drawn<DB> {
-    let before = &study.case(Method::PerJoint).impact_before;
+    let before = &study.case(SearchMethod::PerJoint).impact_before;
     let joints = before.len();
     let title = format!("lock at {} s", study.failure_time);
     let axes = Axes {
@@ -125,7 +129,7 @@ fn bars<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study, top: f64) 
         y: ("impact torque in N\u{b7}m", FLOOR..top),
     };
     let mut panel = bar_panel(area, pen, &axes)?;
-    let locked = &study.case(Method::PerJoint).failed_joints;
+    let locked = &study.case(SearchMethod::PerJoint).failed_joints;
     for (joint, before) in before.iter().enumerate() {
         let after = LAWS.map(|law| {
             let case = study.case(law.method);

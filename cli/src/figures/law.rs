@@ -1,13 +1,13 @@
 //! How the laws look in every figure.
 
-use ulna_study::experiment::Method;
+use ulna_study::experiment::SearchMethod;
 
 use super::stroke::Stroke;
 use super::style::{BLUE, GREEN, GREY, ORANGE};
 
 /// A law by its exact search: what it is called, and how it is drawn.
 pub(super) struct Law {
-    pub(super) method: Method,
+    pub(super) method: SearchMethod,
     pub(super) label: &'static str,
     pub(super) stroke: Stroke,
 }
@@ -15,17 +15,17 @@ pub(super) struct Law {
 /// In the order of legends.
 pub(super) const LAWS: [Law; 3] = [
     Law {
-        method: Method::PerJoint,
+        method: SearchMethod::PerJoint,
         label: "Eq. 16 (force bent)",
         stroke: Stroke::solid(BLUE),
     },
     Law {
-        method: Method::Projected,
+        method: SearchMethod::Projected,
         label: "Eq. 20 (force kept)",
         stroke: Stroke::dashed(ORANGE),
     },
     Law {
-        method: Method::Optimal,
+        method: SearchMethod::Optimal,
         label: "optimal (force kept)",
         stroke: Stroke::dotted(GREEN),
     },

@@ -3,7 +3,7 @@
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::DrawingBackend;
 use ulna::JointKind;
-use ulna_study::experiment::{Case, Method, Series, Study};
+use ulna_study::experiment::{Case, SearchMethod, Series, Study};
 
 use super::chart::{Axes, Key, legend, panel, range};
 use super::law::{LAWS, WITHOUT, WITHOUT_LABEL};
@@ -51,7 +51,11 @@ impl Figure for Torques<'_> {
 impl Torques<'_> {
     /// A joint's rated torque, if it has one.
     fn rated(&self, joint: usize) -> Option<f64> {
-        let rated = self.study.case(Method::PerJoint).rated_torque.as_ref();
+        let rated = self
+            .study
+            .case(SearchMethod::PerJoint)
+            .rated_torque
+            .as_ref();
         rated
             .map(|rated| rated[joint])
             .filter(|rated| rated.is_finite())
@@ -59,7 +63,7 @@ impl Torques<'_> {
 
     /// A rated torque that is worth drawing: one that is far away would press the curves flat.
     fn near_limit(&self, joint: usize) -> Option<f64> {
-        let largest = LAWS.map(|law| self.study.case(law.method).flight.max_torque[joint]);
+        let largest = LAWS.map(|law| self.study.case(law.method).rollout.max_torque[joint]);
         let largest = largest.into_iter().fold(0.0, f64::max);
         self.rated(joint).filter(|rated| *rated <= 1.5 * largest)
     }
@@ -75,12 +79,14 @@ impl Torques<'_> {
         let lock = self.study.failure_time;
         let seen = |time: f64| within.is_none_or(|within| (time - lock).abs() <= within);
         let curve = |case: &Case, rows: fn(&Series) -> &Vec<Vec<f64>>| {
-            let series = &case.flight.series;
+            let series = &case.rollout.series;
             let points = series.time.iter().zip(rows(series));
             let points = points.map(|(time, row)| (*time, row[joint]));
             points.filter(|(time, _)| seen(*time)).collect::<Vec<_>>()
         };
-        let planned = curve(self.study.case(Method::PerJoint), |series| &series.planned);
+        let planned = curve(self.study.case(SearchMethod::PerJoint), |series| {
+            &series.planned
+        });
         let curves = LAWS.map(|law| {
             let case = self.study.case(law.method);
             (curve(case, |series| &series.torque), law.stroke)

@@ -1,7 +1,7 @@
 //! What tool force buys: force error against impact.
 
 use plotters::prelude::DrawingBackend;
-use ulna_study::experiment::{Method, Study};
+use ulna_study::experiment::{SearchMethod, Study};
 
 use super::chart::{Axes, Key, Panel, legend, panel};
 use super::stroke::CURVES;
@@ -15,10 +15,10 @@ pub(crate) struct Tradeoffs<'s> {
 }
 
 /// The marks: what the shapes stand for.
-const MARKS: [(Method, &str, Marker); 3] = [
-    (Method::Optimal, "optimal", Marker::Circle),
-    (Method::Projected, "Eq. 20", Marker::Triangle),
-    (Method::PerJoint, "Eq. 16", Marker::Square),
+const MARKS: [(SearchMethod, &str, Marker); 3] = [
+    (SearchMethod::Optimal, "optimal", Marker::Circle),
+    (SearchMethod::Projected, "Eq. 20", Marker::Triangle),
+    (SearchMethod::PerJoint, "Eq. 16", Marker::Square),
 ];
 
 impl Figure for Tradeoffs<'_> {

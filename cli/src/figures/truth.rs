@@ -2,7 +2,7 @@
 
 use plotters::prelude::DrawingBackend;
 use ulna::JointKind;
-use ulna_study::experiment::{Method, Truth, TruthRun};
+use ulna_study::experiment::{SearchMethod, Truth, TruthRun};
 
 use super::chart::{Axes, Key, double_log_panel, legend, panel, range};
 use super::stroke::{CURVES, EVENT, Stroke};
@@ -104,7 +104,7 @@ impl SimulatedTorques<'_> {
                 ],
             ),
             (
-                Some(Method::PerJoint),
+                Some(SearchMethod::PerJoint),
                 [
                     (simulated, SIMULATED_EQ16, "simulated, Eq. 16"),
                     (predicted, PREDICTED_EQ16, "predicted, Eq. 16"),

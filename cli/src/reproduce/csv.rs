@@ -34,7 +34,7 @@ pub(super) fn impacts<'s>(cases: impl Iterator<Item = &'s Case>) -> anyhow::Resu
             impact_after: case.impact_after[joint],
             suppression_percent,
             coefficient: case.coefficients[joint],
-            max_torque: case.flight.max_torque[joint],
+            max_torque: case.rollout.max_torque[joint],
         })
     }))
 }
@@ -71,7 +71,7 @@ pub(super) fn searches<'s>(cases: impl Iterator<Item = &'s Case>) -> anyhow::Res
             healthy_before,
             healthy_after,
             force_error_at_lock: case.force_error,
-            max_force_error: case.flight.max_force_error,
+            max_force_error: case.rollout.max_force_error,
             status: status(case),
         }
     }))
@@ -172,7 +172,7 @@ pub(super) fn convergence(truths: &[Truth]) -> anyhow::Result<String> {
 
 /// One row for each time of the series, with columns for each joint. At the failure time there are two: before and after the lock.
 pub(super) fn series(case: &Case) -> anyhow::Result<String> {
-    let series = &case.flight.series;
+    let series = &case.rollout.series;
     let mut csv = ::csv::Writer::from_writer(Vec::new());
     let per_joint = |what: &str| {
         let joints = 1..=case.impact_before.len();

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::*;
 use ulna_study::Scenario;
-use ulna_study::experiment::{AnyArm, ExperimentError, Laboratory, Study, Truth};
+use ulna_study::experiment::{AnyArm, ExperimentError, ExperimentRunner, Study, Truth};
 use ulna_study::scenario::Experiment;
 
 use crate::arms::{ForArm, GENERATED, with_arm};
@@ -104,9 +104,9 @@ impl ForArm for Work<'_> {
     type Output = Result<Findings, ExperimentError>;
 
     fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
-        let laboratory = Laboratory::new(arm, self.0)?;
-        let study = |experiment: &Experiment, time| laboratory.study(experiment, time);
-        let truth = |experiment: &Experiment, time| laboratory.truth(experiment, time);
+        let runner = ExperimentRunner::new(arm, self.0)?;
+        let study = |experiment: &Experiment, time| runner.study(experiment, time);
+        let truth = |experiment: &Experiment, time| runner.truth(experiment, time);
         explore(self.0, &study, &truth)
     }
 }
@@ -114,7 +114,7 @@ impl ForArm for Work<'_> {
 /// One experiment with the failure at one time, s.
 type Attempt<'l, T> = dyn Fn(&Experiment, f64) -> Result<T, ExperimentError> + Sync + 'l;
 
-/// Everything that is asked of a laboratory, side by side. Apart from it, so that this is not compiled for each number of joints.
+/// Everything that is asked of a runner, side by side. Apart from it, so that this is not compiled for each number of joints.
 fn explore(
     scenario: &Scenario,
     study: &Attempt<'_, Study>,

@@ -103,8 +103,8 @@ fn result(case: &Case) -> ResultCase<'_> {
         impact_after: &case.impact_after,
         suppression_percent: case.suppression_percent(),
         coefficients: &case.coefficients,
-        max_force_error: case.flight.max_force_error,
-        max_torque: &case.flight.max_torque,
+        max_force_error: case.rollout.max_force_error,
+        max_torque: &case.rollout.max_torque,
         status: status(case),
     }
 }

@@ -4,18 +4,18 @@ use std::io::{self, Write};
 
 use comfy_table::presets;
 use comfy_table::{CellAlignment, Table};
-use ulna_study::experiment::{Case, Method, Study, Truth};
+use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
 use ulna_study::scenario::{Experiment, Reference, Scenario};
 
 use super::Findings;
 use super::words::{name, seconds, significant, solve_status, what_locks};
 
 /// Columns of a table of impacts, one for each method.
-const METHODS: [(Method, &str); 4] = [
-    (Method::StepwisePerJoint, "Eq.16 steps"),
-    (Method::PerJoint, "Eq.16"),
-    (Method::Projected, "Eq.20"),
-    (Method::Optimal, "optimal"),
+const METHODS: [(SearchMethod, &str); 4] = [
+    (SearchMethod::StepwisePerJoint, "Eq.16 steps"),
+    (SearchMethod::PerJoint, "Eq.16"),
+    (SearchMethod::Projected, "Eq.20"),
+    (SearchMethod::Optimal, "optimal"),
 ];
 
 /// All tables of a scenario.
@@ -127,7 +127,7 @@ fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) ->
         [there(), there()],
         titles,
     ));
-    let before = &study.case(Method::PerJoint).impact_before;
+    let before = &study.case(SearchMethod::PerJoint).impact_before;
     for (joint, impact) in before.iter().enumerate() {
         let locked = if scenario.failed_joints().contains(&joint) {
             " (locks)"
@@ -144,7 +144,7 @@ fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) ->
             per_method(&|case| significant(case.impact_after[joint])),
         ));
     }
-    let (healthy, _) = study.case(Method::PerJoint).healthy_impact();
+    let (healthy, _) = study.case(SearchMethod::PerJoint).healthy_impact();
     table.add_row(row(
         "norm, healthy joints".into(),
         significant(healthy),
@@ -161,7 +161,7 @@ fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) ->
         "force error at worst, N".into(),
         significant(0.0),
         [blank(), blank()],
-        per_method(&|case| significant(case.flight.max_force_error)),
+        per_method(&|case| significant(case.rollout.max_force_error)),
     ));
     plain(table, &[0])
 }
@@ -170,7 +170,7 @@ fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) ->
 fn exponent(studies: &[&Study]) -> i32 {
     let coefficients = studies
         .iter()
-        .flat_map(|study| &study.case(Method::PerJoint).coefficients);
+        .flat_map(|study| &study.case(SearchMethod::PerJoint).coefficients);
     let largest = coefficients.fold(0.0_f64, |largest, k| largest.max(k.abs()));
     if largest > 0.0 {
         largest.log10().floor() as i32
@@ -182,9 +182,9 @@ fn exponent(studies: &[&Study]) -> i32 {
 /// A row for each failure time and source, a column for each joint; in units of 10 to the `exponent`.
 fn coefficients(experiment: &Experiment, studies: &[&Study], exponent: i32) -> String {
     let mut table = Table::new();
-    let joints = studies
-        .first()
-        .map_or(0, |study| study.case(Method::PerJoint).coefficients.len());
+    let joints = studies.first().map_or(0, |study| {
+        study.case(SearchMethod::PerJoint).coefficients.len()
+    });
     let titles = (1..=joints).map(|joint| format!("k_d{joint}"));
     table.set_header(
         ["at".to_owned(), "found".to_owned()]
@@ -202,8 +202,8 @@ fn coefficients(experiment: &Experiment, studies: &[&Study], exponent: i32) -> S
     for study in studies {
         let time = format!("{} s", study.failure_time);
         for (method, title) in [
-            (Method::StepwisePerJoint, "in steps"),
-            (Method::PerJoint, "exactly"),
+            (SearchMethod::StepwisePerJoint, "in steps"),
+            (SearchMethod::PerJoint, "exactly"),
         ] {
             let values = study.case(method).coefficients.iter();
             let cells = values.map(|value| cell(*value));

@@ -2,7 +2,7 @@
 
 use ulna::Status;
 use ulna_study::Scenario;
-use ulna_study::experiment::{Case, Method};
+use ulna_study::experiment::{Case, SearchMethod};
 use ulna_study::search::SolveStatus;
 
 /// "joint 2", "joints 1, 2 and 4" or "no joint": `joints` count from 0, names from 1.
@@ -25,13 +25,13 @@ pub(super) fn what_locks(scenario: &Scenario) -> String {
 }
 
 /// What a method is called in files.
-pub(super) fn name(method: Method) -> &'static str {
+pub(super) fn name(method: SearchMethod) -> &'static str {
     match method {
-        Method::StepwisePerJoint => "eq16_steps",
-        Method::PerJoint => "eq16",
-        Method::StepwiseProjected => "eq20_steps",
-        Method::Projected => "eq20",
-        Method::Optimal => "optimal",
+        SearchMethod::StepwisePerJoint => "eq16_steps",
+        SearchMethod::PerJoint => "eq16",
+        SearchMethod::StepwiseProjected => "eq20_steps",
+        SearchMethod::Projected => "eq20",
+        SearchMethod::Optimal => "optimal",
     }
 }
 
@@ -40,7 +40,7 @@ pub(super) fn status(case: &Case) -> String {
     if let Err(error) = &case.search {
         return format!("infeasible: {error}");
     }
-    let status = match case.flight.status {
+    let status = match case.rollout.status {
         Status::Nominal => "nominal",
         Status::Saturated => "saturated",
         Status::NearSingular => "near_singular",

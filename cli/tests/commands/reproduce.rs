@@ -388,11 +388,11 @@ fn files_are_replaced_all_or_none() {
 }
 
 #[test]
-fn a_motion_that_cannot_be_flown_is_refused() {
+fn a_motion_that_cannot_be_executed_is_refused() {
     let slow = "blend = 4.455\nmax_velocity = [1, 1, 0.2, 1, 1, 1, 1]";
     let folder = quick_scenario(&[("blend = 4.455", slow)]);
     let err = stderr(&reproduce(&folder).code(1).stdout(""));
-    let message = "error: the motion cannot be flown: joint 3 would need 0.283";
+    let message = "error: the motion cannot be executed: joint 3 would need 0.283";
     assert!(err.contains(message), "{err}");
     assert!(!folder.path().join("out").exists());
 }

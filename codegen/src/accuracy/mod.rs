@@ -47,7 +47,7 @@ pub struct Conditioned {
 
 /// The states at which an arm's programs are judged.
 #[derive(Debug)]
-pub(crate) struct Yardstick {
+pub(crate) struct TestStates {
     /// Random ones first.
     states: Vec<State>,
     /// How many of them are near singular poses.
@@ -58,7 +58,7 @@ pub(crate) struct Yardstick {
     length: f64,
 }
 
-impl Yardstick {
+impl TestStates {
     /// Chooses the states for the arm of `model`.
     pub(crate) fn new(model: &Model) -> Self {
         let graph = Graph::new();

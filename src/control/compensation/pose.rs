@@ -102,7 +102,7 @@ impl<const N: usize> TaskPose<N> {
 
     /// Jᵀ f for the moving joints and the task's rows of f, times the factor of the rule near singular poses.
     #[inline]
-    pub fn lift(&self, wrench: &Vector6<f64>) -> SVector<f64, N> {
+    pub fn static_torque(&self, wrench: &Vector6<f64>) -> SVector<f64, N> {
         let mut of_task = Vector6::zeros();
         for row in self.task.iter() {
             of_task[row.index()] = wrench[row.index()];
@@ -123,7 +123,7 @@ impl<const N: usize> TaskPose<N> {
                 } else {
                     after
                 };
-                self.project(&free.torque) + self.lift(&free.wrench)
+                self.project(&free.torque) + self.static_torque(&free.wrench)
             }
         }
     }

@@ -30,13 +30,13 @@ pub struct CampaignCase {
     pub failed_joint: usize,
     /// When, s.
     pub failure_time: f64,
-    /// What came of it; `Err` if the random motion cannot be flown or the limits leave no compensation.
-    pub outcome: Result<CampaignOutcome, ExperimentError>,
+    /// What came of it; `Err` if the random motion cannot be executed or the limits leave no compensation.
+    pub outcome: Result<CampaignResult, ExperimentError>,
 }
 
 /// Norms of the impact over the healthy joints, N·m (N), and what they cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CampaignOutcome {
+pub struct CampaignResult {
     /// Without compensation.
     pub before: f64,
     /// With Eq. 16.
@@ -66,7 +66,7 @@ impl<'a, const N: usize> Campaign<'a, N> {
     /// The campaign of `scenario`, whose motion and first experiment are varied.
     ///
     /// # Errors
-    /// When the scenario's own motion cannot be flown, as by another arm.
+    /// When the scenario's own motion cannot be executed, as by another arm.
     pub fn new(arm: &'a AnyArm<N>, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
         scenario.motion().plan(arm, super::KNOT_PERIOD)?;
         Ok(Self { arm, scenario })
@@ -98,7 +98,7 @@ impl<'a, const N: usize> Campaign<'a, N> {
         index: u64,
         failed_joint: usize,
         time: f64,
-    ) -> Result<CampaignOutcome, ExperimentError> {
+    ) -> Result<CampaignResult, ExperimentError> {
         let campaign = self.scenario.campaign();
         let task = self.arm.task();
         let mut random = SplitMix64::stream(campaign.seed(), index);
@@ -130,12 +130,12 @@ impl<'a, const N: usize> Campaign<'a, N> {
 fn assess<const N: usize>(
     operation: &Operation<N>,
     failed_joint: usize,
-) -> Result<CampaignOutcome, SearchError> {
+) -> Result<CampaignResult, SearchError> {
     let step = operation.step();
     let per_joint = cancel_per_joint(operation)?.assessment;
     let projected = least_impact(operation, Objective::LeastSquares)?.assessment;
     let optimal = optimal(operation, ForcePriority::Exact)?.assessment;
-    Ok(CampaignOutcome {
+    Ok(CampaignResult {
         before: operation.failure().joints.without(&step).norm(),
         per_joint: per_joint.healthy_impact,
         projected: projected.healthy_impact,

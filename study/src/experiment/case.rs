@@ -1,12 +1,12 @@
-//! [`Case`]: what came of one experiment, one failure time and one [`Method`].
+//! [`Case`]: what came of one experiment, one failure time and one [`SearchMethod`].
 
-use super::Flight;
+use super::Rollout;
 use crate::search::{SearchError, SolveStatus};
 use ulna::Law;
 
 /// How a compensation is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Method {
+pub enum SearchMethod {
     /// Eq. 16 by the paper's search (Figure 2).
     StepwisePerJoint,
     /// Eq. 16 exactly.
@@ -19,7 +19,7 @@ pub enum Method {
     Optimal,
 }
 
-impl Method {
+impl SearchMethod {
     /// All of them.
     pub const ALL: [Self; 5] = [
         Self::StepwisePerJoint,
@@ -50,7 +50,7 @@ pub struct Case {
     /// [`Experiment::section`](crate::scenario::Experiment::section).
     pub section: String,
     /// How the compensation was found.
-    pub method: Method,
+    pub method: SearchMethod,
     /// The joints that lock, counted from 0.
     pub failed_joints: Vec<usize>,
     /// When, s.
@@ -69,7 +69,7 @@ pub struct Case {
     /// How the search ended; `Err` if there is nothing that keeps the limits, and no compensation then.
     pub search: Result<Search, SearchError>,
     /// The whole motion under the controller.
-    pub flight: Flight,
+    pub rollout: Rollout,
 }
 
 /// How the search for a compensation ended.
@@ -131,15 +131,15 @@ pub struct Study {
     pub section: String,
     /// s.
     pub failure_time: f64,
-    /// One for each [`Method`], in the order of [`Method::ALL`].
+    /// One for each [`SearchMethod`], in the order of [`SearchMethod::ALL`].
     pub cases: Vec<Case>,
-    /// The frontier that [`Method::Optimal`] is the end of; `None` where the limits leave no compensation at all.
+    /// The frontier that [`SearchMethod::Optimal`] is the end of; `None` where the limits leave no compensation at all.
     pub tradeoff: Option<Tradeoff>,
 }
 
 impl Study {
     /// The case of `method`.
-    pub fn case(&self, method: Method) -> &Case {
+    pub fn case(&self, method: SearchMethod) -> &Case {
         &self.cases[method as usize]
     }
 }

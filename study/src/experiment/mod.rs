@@ -1,13 +1,13 @@
 //! Section 5 of the paper as a library: a [`Scenario`](crate::Scenario) in, the cases with their series out.
 //!
 //! A *case* is one experiment, one failure time, one way to find a compensation. The impact is that of Eq. 18 for
-//! ever shorter control cycles; extremes and series are those of a [`Controller`](ulna::Controller) that flies the whole motion cycle by cycle.
+//! ever shorter control cycles; extremes and series are those of a [`Controller`](ulna::Controller) that executes the whole motion cycle by cycle.
 //! Results carry plain lists, one entry for each joint, so that tables and figures need not know how many there are.
 
 mod campaign;
 mod case;
-mod flight;
-mod laboratory;
+mod rollout;
+mod runner;
 mod truth;
 
 use nalgebra::SVector;
@@ -17,17 +17,17 @@ use crate::search::SearchError;
 use crate::simulation::{Ending, SimulationError};
 use ulna::Arm;
 
-pub use campaign::{Campaign, CampaignCase, CampaignOutcome};
-pub use case::{Case, Method, Search, Study, Tradeoff};
-pub use flight::{Flight, Series};
-pub use laboratory::Laboratory;
+pub use campaign::{Campaign, CampaignCase, CampaignResult};
+pub use case::{Case, Search, SearchMethod, Study, Tradeoff};
+pub use rollout::{Rollout, Series};
+pub use runner::ExperimentRunner;
 pub use truth::{BrakeImpulse, Truth, TruthRun};
 
 /// Why a scenario cannot be tried out.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ExperimentError {
-    /// The motion cannot be flown.
-    #[error("the motion cannot be flown: {0}")]
+    /// The motion cannot be executed.
+    #[error("the motion cannot be executed: {0}")]
     Motion(#[from] PlanError),
     /// A joint that the arm does not have, counted from 0.
     #[error("joint {} fails, the arm has {joints}", joint + 1)]

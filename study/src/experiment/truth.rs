@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::SVector;
 
-use super::{AnyArm, ExperimentError, Laboratory, Method, list, rated_torque};
+use super::{AnyArm, ExperimentError, ExperimentRunner, SearchMethod, list, rated_torque};
 use crate::scenario::Experiment;
 use crate::simulation::{
     Brake, Control, Ending, Feedback, Impact, Outcome, Resolution, Sample, Simulation,
@@ -53,7 +53,7 @@ pub struct BrakeImpulse {
 #[derive(Clone, Debug, PartialEq)]
 pub struct TruthRun {
     /// `None` without compensation.
-    pub method: Option<Method>,
+    pub method: Option<SearchMethod>,
     /// The step of each joint's torque as the paper predicts it, after minus before, N·m (N).
     pub predicted_step: Vec<f64>,
     /// The step as it is, from just before the lock to when the brakes have done their work.
@@ -86,7 +86,7 @@ const RESOLUTION: Resolution = Resolution {
 /// How fast departures from the plan die out, rad/s.
 const FEEDBACK: f64 = 5.0;
 
-impl<const N: usize> Laboratory<'_, N> {
+impl<const N: usize> ExperimentRunner<'_, N> {
     /// One experiment with the brakes falling at `failure_time`.
     ///
     /// # Errors
@@ -103,7 +103,11 @@ impl<const N: usize> Laboratory<'_, N> {
             ..Brake::new(failure, self.scenario.brake().duration())
         };
         let mut runs = vec![self.run_truth(experiment, None, Compensation::none(), brake)?];
-        for method in [Method::PerJoint, Method::Projected, Method::Optimal] {
+        for method in [
+            SearchMethod::PerJoint,
+            SearchMethod::Projected,
+            SearchMethod::Optimal,
+        ] {
             if let Ok(found) = self.search(&operation, method) {
                 runs.push(self.run_truth(experiment, Some(method), found.compensation, brake)?);
             }
@@ -130,7 +134,7 @@ impl<const N: usize> Laboratory<'_, N> {
     fn run_truth(
         &self,
         experiment: &Experiment,
-        method: Option<Method>,
+        method: Option<SearchMethod>,
         compensation: Compensation<N>,
         brake: Brake<N>,
     ) -> Result<TruthRun, ExperimentError> {

@@ -88,7 +88,7 @@ impl Motion {
     /// The motion for `arm`; the knots of a tool path are `knot_period` s apart.
     ///
     /// # Errors
-    /// When the motion cannot be flown: it is that of another arm, too fast for a joint, or leads through a singular pose.
+    /// When the motion cannot be executed: it is that of another arm, too fast for a joint, or leads through a singular pose.
     pub fn plan<const N: usize>(
         &self,
         arm: &(impl Arm<N> + ?Sized),
@@ -126,7 +126,7 @@ fn for_each_joint<const N: usize>(numbers: &[f64]) -> Result<SVector<f64, N>, Pl
     Ok(numbers.into())
 }
 
-/// Why a [`Motion`] cannot be flown.
+/// Why a [`Motion`] cannot be executed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum PlanError {
     /// The motion is for another number of joints.
@@ -142,7 +142,7 @@ pub enum PlanError {
     Trajectory(#[from] TrajectoryError),
 }
 
-/// A [`Motion`] that an arm can fly.
+/// A [`Motion`] that an arm can execute.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlannedMotion<const N: usize> {
     /// Straight in joint space.

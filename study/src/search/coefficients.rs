@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{Assessment, Operation, Outcome, Sample, SearchError, SolveStatus};
+use super::{Assessment, OperatingPoint, Operation, SearchError, Solution, SolveStatus};
 use ulna::control::compensation::Compensation;
 
 /// A coefficient that does less than this much of what ∇w_D itself would do, or the strongest coefficient does, has no say:
@@ -34,7 +34,7 @@ impl CoefficientLaw {
     }
 
     /// ∂U/∂k_d at a sample: U is linear in k_d.
-    pub(super) fn map<const N: usize>(self, sample: &Sample<N>) -> SMatrix<f64, N, N> {
+    pub(super) fn map<const N: usize>(self, sample: &OperatingPoint<N>) -> SMatrix<f64, N, N> {
         let pose = &sample.pose;
         match self {
             Self::PerJoint => SMatrix::from_diagonal(&pose.project(&pose.gradient)),
@@ -78,7 +78,7 @@ impl<'a, const N: usize> Maps<'a, N> {
 /// the nearest value that Eq. 28 allows leaves the least, since |Δτ̃_i| is convex in k_di.
 pub fn cancel_per_joint<const N: usize>(
     operation: &Operation<N>,
-) -> Result<Outcome<N>, SearchError> {
+) -> Result<Solution<N>, SearchError> {
     let clock = Instant::now();
     let maps = Maps::new(operation, CoefficientLaw::PerJoint);
     let slopes = step_slopes(operation);
@@ -90,7 +90,7 @@ pub fn cancel_per_joint<const N: usize>(
     }
     let seconds = clock.elapsed().as_secs_f64();
     let compensation = Compensation::PerJoint(k);
-    Ok(Outcome {
+    Ok(Solution {
         compensation,
         assessment: operation.assess(&compensation),
         status: SolveStatus::ClosedForm,
@@ -116,7 +116,7 @@ pub fn equivalent_per_joint<const N: usize>(
 /// ∂Δτ̃_i/∂k_di of Eq. 16; `None` where k_di has no say.
 fn step_slopes<const N: usize>(operation: &Operation<N>) -> [Option<f64>; N] {
     let (before, after) = (operation.before(), operation.after());
-    let map = |sample: &Sample<N>| CoefficientLaw::PerJoint.map(sample).diagonal();
+    let map = |sample: &OperatingPoint<N>| CoefficientLaw::PerJoint.map(sample).diagonal();
     let slopes = map(after) - map(before);
     // Slopes that are all far below ∇w_D are what rounding leaves of a projection that takes all of it away.
     let gradient = before.pose.gradient.amax().max(after.pose.gradient.amax());

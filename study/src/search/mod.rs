@@ -20,7 +20,7 @@ use ulna::control::compensation::Compensation;
 pub use coefficients::{CoefficientLaw, cancel_per_joint, equivalent_per_joint};
 pub use convex::{ForcePriority, FrontierPoint, Objective, frontier, least_impact, optimal};
 pub use interval::{Interval, feasible_interval};
-pub use operation::{Assessment, Operation, OperationOptions, Sample};
+pub use operation::{Assessment, OperatingPoint, Operation, OperationOptions};
 pub use stepwise::Stepwise;
 
 /// Why there is nothing to search, or nothing to find. Joints count from 0 in the fields and from 1 in the messages.
@@ -83,7 +83,7 @@ pub enum SolveStatus {
 
 /// What a search found, and what it is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome<const N: usize> {
+pub struct Solution<const N: usize> {
     /// The law with its parameters.
     pub compensation: Compensation<N>,
     /// What it does to the operation.

@@ -35,7 +35,7 @@ impl<const N: usize> Default for OperationOptions<N> {
 
 /// One time of an operation.
 #[derive(Clone, Copy, Debug)]
-pub struct Sample<const N: usize> {
+pub struct OperatingPoint<const N: usize> {
     /// When, s.
     pub time: f64,
     /// The joints that are locked by then.
@@ -52,7 +52,7 @@ pub struct Operation<const N: usize> {
     failure: Failure<N>,
     rated_torque: SVector<f64, N>,
     /// In time order: healthy up to t_f, locked from t_f + Δt on.
-    samples: Vec<Sample<N>>,
+    samples: Vec<OperatingPoint<N>>,
     /// The index of the first sample after the lock.
     lock: usize,
 }
@@ -129,7 +129,7 @@ impl<const N: usize> Operation<N> {
             if !planned.iter().all(|torque| torque.is_finite()) {
                 return Err(SearchError::NotFinite { time });
             }
-            Ok(Sample {
+            Ok(OperatingPoint {
                 time,
                 locked,
                 planned,
@@ -162,7 +162,7 @@ impl<const N: usize> Operation<N> {
     }
 
     /// Every sample, in time order.
-    pub fn samples(&self) -> &[Sample<N>] {
+    pub fn samples(&self) -> &[OperatingPoint<N>] {
         &self.samples
     }
 
@@ -172,12 +172,12 @@ impl<const N: usize> Operation<N> {
     }
 
     /// t_f, all joints still moving.
-    pub fn before(&self) -> &Sample<N> {
+    pub fn before(&self) -> &OperatingPoint<N> {
         &self.samples[self.lock - 1]
     }
 
     /// t_f + Δt, the failed joints locked.
-    pub fn after(&self) -> &Sample<N> {
+    pub fn after(&self) -> &OperatingPoint<N> {
         &self.samples[self.lock]
     }
 
@@ -213,7 +213,7 @@ impl<const N: usize> Operation<N> {
         }
         let (before, after) = (torques[self.lock - 1], torques[self.lock]);
         let impact = after - before;
-        let force_error = |sample: &Sample<N>, torque: SVector<f64, N>| {
+        let force_error = |sample: &OperatingPoint<N>, torque: SVector<f64, N>| {
             sample
                 .pose
                 .null_space

@@ -5,7 +5,7 @@ use std::time::Instant;
 use nalgebra::{SMatrix, SVector};
 
 use super::coefficients::{CoefficientLaw, Maps};
-use super::{Operation, Outcome, SearchError, SolveStatus};
+use super::{Operation, SearchError, Solution, SolveStatus};
 
 /// The paper's search (Figure 2): from a start value, each coefficient goes up and down in fixed steps
 /// within its interval of Eq. 28 as long as the impact shrinks.
@@ -40,7 +40,7 @@ impl<const N: usize> Stepwise<N> {
         &self,
         operation: &Operation<N>,
         law: CoefficientLaw,
-    ) -> Result<Outcome<N>, SearchError> {
+    ) -> Result<Solution<N>, SearchError> {
         let clock = Instant::now();
         if !(self.step.is_finite() && self.step > 0.0) {
             return Err(SearchError::Argument {
@@ -71,7 +71,7 @@ impl<const N: usize> Stepwise<N> {
         }
         let seconds = clock.elapsed().as_secs_f64();
         let compensation = law.with(walk.k);
-        Ok(Outcome {
+        Ok(Solution {
             compensation,
             assessment: operation.assess(&compensation),
             status: if walk.steps_left == 0 {

@@ -2,13 +2,14 @@ use ulna::nalgebra::{SVector, Vector6};
 use ulna::{Compensation, Failure};
 use ulna_generated::Ssrms;
 use ulna_study::search::{
-    CoefficientLaw, ForcePriority, Objective, Operation, OperationOptions, Outcome, Sample,
-    SearchError, SolveStatus, Stepwise, cancel_per_joint, feasible_interval, least_impact, optimal,
+    CoefficientLaw, ForcePriority, Objective, OperatingPoint, Operation, OperationOptions,
+    SearchError, Solution, SolveStatus, Stepwise, cancel_per_joint, feasible_interval,
+    least_impact, optimal,
 };
 
 use crate::arms::{TIMES, failure, limited, operation, paper_force, paper_like_motion, unlimited};
 
-fn keeps_limits(operation: &Operation<7>, outcome: &Outcome<7>) {
+fn keeps_limits(operation: &Operation<7>, outcome: &Solution<7>) {
     let over = outcome.assessment.peak_torque - operation.rated_torque();
     assert!(over.max() <= 1e-9, "{:e}", over.max());
 }
@@ -79,7 +80,7 @@ fn an_empty_interval_names_the_joint_and_the_time() {
         let samples = operation.samples().iter();
         samples.take_while(move |sample| sample.time <= end)
     };
-    let overloaded = |sample: &Sample<7>| sample.planned[3].abs() > 300.0;
+    let overloaded = |sample: &OperatingPoint<7>| sample.planned[3].abs() > 300.0;
     assert!(until(time).any(overloaded));
     for search in [
         cancel_per_joint(&operation),

@@ -99,11 +99,11 @@ fn the_frontier_falls_from_the_force_keeping_limit_to_no_impact() {
             .map(|i| per_joint.force_error() * f64::from(i) / 20.0)
             .collect();
         let points = frontier(&operation, &allowed).unwrap();
-        let impact = |i: usize| points[i].outcome.assessment.healthy_impact;
+        let impact = |i: usize| points[i].solution.assessment.healthy_impact;
         assert!((impact(0) / limit - 1.0).abs() < 1e-3);
         for i in 1..points.len() {
             assert!(impact(i) <= impact(i - 1) + 1e-7);
-            assert!(points[i].outcome.assessment.force_error() <= allowed[i] + 1e-7);
+            assert!(points[i].solution.assessment.force_error() <= allowed[i] + 1e-7);
         }
         assert!(impact(points.len() - 1) <= per_joint.healthy_impact + 1e-7);
         // All of the step can go for far less force error than Eq. 16 takes.

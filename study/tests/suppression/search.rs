@@ -6,7 +6,7 @@ use ulna::{
 };
 use ulna_generated::Ssrms;
 use ulna_study::search::{
-    CoefficientLaw, ForcePriority, Objective, Operation, OperationOptions, Outcome, SolveStatus,
+    CoefficientLaw, ForcePriority, Objective, Operation, OperationOptions, Solution, SolveStatus,
     Stepwise, cancel_per_joint, equivalent_per_joint, least_impact, optimal,
 };
 
@@ -15,7 +15,7 @@ use crate::arms::{
 };
 
 /// What is left of each joint's step, joints 1 to 6.
-fn left(operation: &Operation<7>, outcome: &Outcome<7>) -> [f64; 6] {
+fn left(operation: &Operation<7>, outcome: &Solution<7>) -> [f64; 6] {
     std::array::from_fn(|i| (outcome.assessment.impact[i] / operation.step()[i]).abs())
 }
 
@@ -88,7 +88,7 @@ fn eq_20_keeps_the_tool_force_and_leaves_what_a_single_direction_can_not_take() 
         assert!(outcome.assessment.max_force_error < 1e-9);
         assert_eq!(outcome.status, SolveStatus::ClosedForm);
         let min_max = least_impact(&operation, Objective::MinMax).unwrap();
-        let largest = |outcome: &Outcome<7>| {
+        let largest = |outcome: &Solution<7>| {
             let joints = operation.failure().joints;
             joints.without(&outcome.assessment.impact).amax()
         };
@@ -198,7 +198,7 @@ fn the_papers_search_does_no_better_than_the_exact_one() {
 }
 
 #[test]
-fn the_controller_flies_what_the_search_found() {
+fn the_controller_executes_what_the_search_found() {
     for time in TIMES {
         let failure = failure(&[1], time);
         let operation = limited(&failure, 20.0);

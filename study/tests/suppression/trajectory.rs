@@ -37,23 +37,26 @@ fn trapezoid_goes_from_rest_to_rest() {
 }
 
 #[test]
-fn trapezoid_refuses_what_cannot_be_flown() {
+fn trapezoid_refuses_what_cannot_be_executed() {
     let start = SVector::from([0.0, 0.0]);
     let goal = SVector::from([1.0, -4.0]);
     let free = JointLimits::none();
-    let fly = |duration, blend, limits| Trapezoid::new(start, goal, duration, blend, limits);
-    assert_eq!(fly(0.0, 0.1, &free), Err(TrajectoryError::Duration(0.0)));
+    let planned = |duration, blend, limits| Trapezoid::new(start, goal, duration, blend, limits);
+    assert_eq!(
+        planned(0.0, 0.1, &free),
+        Err(TrajectoryError::Duration(0.0))
+    );
     assert!(matches!(
-        fly(f64::NAN, 0.1, &free),
+        planned(f64::NAN, 0.1, &free),
         Err(TrajectoryError::Duration(_))
     ));
     for blend in [0.0, -1.0, 1.1, f64::NAN] {
         assert!(matches!(
-            fly(2.0, blend, &free),
+            planned(2.0, blend, &free),
             Err(TrajectoryError::Blend { .. })
         ));
     }
-    assert!(fly(2.0, 1.0, &free).is_ok());
+    assert!(planned(2.0, 1.0, &free).is_ok());
     let bad = SVector::from([0.0, f64::INFINITY]);
     assert_eq!(
         Trapezoid::new(start, bad, 2.0, 0.5, &free),
@@ -65,7 +68,7 @@ fn trapezoid_refuses_what_cannot_be_flown() {
         velocity: SVector::from([1.0, 2.0]),
         ..free
     };
-    let refusal = fly(2.0, 0.5, &slow).unwrap_err();
+    let refusal = planned(2.0, 0.5, &slow).unwrap_err();
     assert_eq!(
         refusal.to_string(),
         "joint 2 would need 2.666667 rad/s (m/s) at 0.500 s; its limit is 2.000000"
@@ -75,7 +78,7 @@ fn trapezoid_refuses_what_cannot_be_flown() {
         ..free
     };
     assert!(matches!(
-        fly(2.0, 0.5, &soft),
+        planned(2.0, 0.5, &soft),
         Err(TrajectoryError::Acceleration { joint: 0, value, .. }) if (value - 4.0 / 3.0).abs() < 1e-12
     ));
 }

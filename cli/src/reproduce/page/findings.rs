@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use ulna_study::Scenario;
-use ulna_study::experiment::{Case, Method, Study};
+use ulna_study::experiment::{Case, SearchMethod, Study};
 use ulna_study::scenario::Experiment;
 
 use crate::reproduce::table::reference_at;
@@ -35,7 +35,7 @@ fn times(studies: &[&Study]) -> String {
 fn is_without_impact(studies: &[&Study]) -> bool {
     let mut before = studies
         .iter()
-        .map(|study| study.case(Method::PerJoint).healthy_impact().0);
+        .map(|study| study.case(SearchMethod::PerJoint).healthy_impact().0);
     before.all(|before| before < 1e-9)
 }
 
@@ -60,7 +60,7 @@ pub(super) fn suppression_against_force(
         );
     }
     let least = |study: &Study| {
-        let case = study.case(Method::PerJoint);
+        let case = study.case(SearchMethod::PerJoint);
         let percent = case.suppression_percent();
         notable(case)
             .map(|joint| percent[joint])
@@ -72,7 +72,7 @@ pub(super) fn suppression_against_force(
         .collect();
     // Measured, not presumed: another arm may have the room that this one lacks.
     let apart = studies.iter().any(|study| {
-        let (before, left) = study.case(Method::Optimal).healthy_impact();
+        let (before, left) = study.case(SearchMethod::Optimal).healthy_impact();
         left > 0.05 * before
     });
     let headline = if apart {
@@ -88,14 +88,14 @@ pub(super) fn suppression_against_force(
     };
     let kept = studies
         .iter()
-        .map(|study| study.case(Method::Projected).flight.max_force_error);
-    let of = |method: Method, value: fn(&Case) -> f64| {
+        .map(|study| study.case(SearchMethod::Projected).rollout.max_force_error);
+    let of = |method: SearchMethod, value: fn(&Case) -> f64| {
         at_each(studies, |study| value(study.case(method)))
     };
     let before: fn(&Case) -> f64 = |case| case.healthy_impact().0;
     let after: fn(&Case) -> f64 = |case| case.healthy_impact().1;
     let error: fn(&Case) -> f64 = |case| case.force_error;
-    let worst: fn(&Case) -> f64 = |case| case.flight.max_force_error;
+    let worst: fn(&Case) -> f64 = |case| case.rollout.max_force_error;
     writeln!(
         page,
         "{} For locks at {} s, in this order:\n\n\
@@ -106,15 +106,15 @@ pub(super) fn suppression_against_force(
         headline,
         times(studies),
         least.join(", "),
-        of(Method::PerJoint, error),
-        of(Method::PerJoint, worst),
+        of(SearchMethod::PerJoint, error),
+        of(SearchMethod::PerJoint, worst),
         match kept.fold(0.0, f64::max) {
             0.0 => "0".to_owned(),
             rounding => format!("{rounding:.0e}"),
         },
-        of(Method::Projected, after),
-        of(Method::Projected, before),
-        of(Method::Optimal, after),
+        of(SearchMethod::Projected, after),
+        of(SearchMethod::Projected, before),
+        of(SearchMethod::Optimal, after),
         paper
     )
 }
@@ -125,7 +125,7 @@ pub(super) fn price_of_suppression(page: &mut String, studies: &[&Study]) -> fmt
         .iter()
         .filter_map(|study| {
             let (force, impact) = study.tradeoff.as_ref()?.frontier.last()?;
-            let spent = study.case(Method::PerJoint).force_error;
+            let spent = study.case(SearchMethod::PerJoint).force_error;
             Some(format!(
                 "{} N leave {} N·m at {} s (Eq. 16 spends {} N)",
                 significant(*force),
@@ -155,8 +155,8 @@ pub(super) fn search_in_steps(
     let mut coarse = Vec::new();
     for study in studies {
         let (steps, exact) = (
-            study.case(Method::StepwisePerJoint),
-            study.case(Method::PerJoint),
+            study.case(SearchMethod::StepwisePerJoint),
+            study.case(SearchMethod::PerJoint),
         );
         for joint in notable(steps) {
             let before = steps.impact_before[joint];
@@ -178,7 +178,7 @@ pub(super) fn search_in_steps(
     if coarse.is_empty() {
         return Ok(());
     }
-    let milliseconds = |method: Method| {
+    let milliseconds = |method: SearchMethod| {
         let searches = studies.iter().map(|study| &study.case(method).search);
         significant(1e3 * searches.flatten().map(|search| search.seconds).sum::<f64>())
     };
@@ -188,8 +188,8 @@ pub(super) fn search_in_steps(
          coefficient is only a few steps long: {}. The exact search has no such limit; it took {} ms where the search in steps took {} ms (`search.csv`).\n",
         scenario.search().step(),
         coarse.join("; "),
-        milliseconds(Method::PerJoint),
-        milliseconds(Method::StepwisePerJoint),
+        milliseconds(SearchMethod::PerJoint),
+        milliseconds(SearchMethod::StepwisePerJoint),
     )
 }
 
@@ -203,7 +203,7 @@ pub(super) fn beside_references(
         let Some(reference) = reference_at(experiment, study.failure_time) else {
             continue;
         };
-        let case = study.case(Method::StepwisePerJoint);
+        let case = study.case(SearchMethod::StepwisePerJoint);
         let pairs = reference.before().iter().zip(reference.after());
         let rows: Vec<_> = pairs
             .enumerate()
@@ -234,12 +234,12 @@ pub(super) fn beside_references(
 /// Which rated torques bind.
 pub(super) fn limits(page: &mut String, studies: &[&Study]) -> fmt::Result {
     for study in studies {
-        let case = study.case(Method::PerJoint);
+        let case = study.case(SearchMethod::PerJoint);
         let Some(rated) = &case.rated_torque else {
             continue;
         };
         let beyond = |case: &Case, share: f64| -> Vec<usize> {
-            let joints = case.flight.max_torque.iter().zip(rated).enumerate();
+            let joints = case.rollout.max_torque.iter().zip(rated).enumerate();
             let beyond = joints.filter(|(_, (torque, rated))| **torque > **rated * share);
             beyond.map(|(joint, _)| joint).collect()
         };
@@ -254,7 +254,7 @@ pub(super) fn limits(page: &mut String, studies: &[&Study]) -> fmt::Result {
         } else {
             format!("exceeded by {}", exceeded.join(", "))
         };
-        let rows = &case.flight.series.planned;
+        let rows = &case.rollout.series.planned;
         let plan = (0..rated.len())
             .map(|joint| rows.iter().map(|row| row[joint].abs()).fold(0.0, f64::max));
         let plan: Vec<_> = plan.map(significant).collect();

@@ -3,14 +3,18 @@
 use std::fmt::{self, Write};
 
 use ulna_study::Scenario;
-use ulna_study::experiment::{Method, Truth, TruthRun};
+use ulna_study::experiment::{SearchMethod, Truth, TruthRun};
 
 use crate::reproduce::Findings;
 use crate::reproduce::drawings::{CONVERGENCE, SIMULATED};
 use crate::reproduce::words::{joints_named, name, seconds, significant};
 
 /// The norms of a run's step over the healthy joints, one for each failure time.
-fn steps(truths: &[Truth], method: Option<Method>, step: fn(&TruthRun) -> &Vec<f64>) -> String {
+fn steps(
+    truths: &[Truth],
+    method: Option<SearchMethod>,
+    step: fn(&TruthRun) -> &Vec<f64>,
+) -> String {
     let norms = truths.iter().filter_map(|truth| {
         let run = truth.runs.iter().find(|run| run.method == method)?;
         let joints = step(run).iter().enumerate();
@@ -48,7 +52,7 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
             .collect::<Vec<_>>()
             .join(", "),
         steps(truths, None, |run| &run.torque_step),
-        steps(truths, Some(Method::PerJoint), |run| &run.torque_step),
+        steps(truths, Some(SearchMethod::PerJoint), |run| &run.torque_step),
     )?;
     writeln!(
         page,

@@ -67,7 +67,7 @@ fn summary(page: &mut String, studies: &[&Study]) -> fmt::Result {
                 significant(before),
                 significant(after),
                 significant(case.force_error),
-                significant(case.flight.max_force_error),
+                significant(case.rollout.max_force_error),
                 status(case),
             )?;
         }

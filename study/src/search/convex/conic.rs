@@ -18,7 +18,7 @@ pub(super) struct Program {
 }
 
 /// What the solver says.
-pub(super) struct Solution {
+pub(super) struct Minimum {
     pub(super) x: DVector<f64>,
     pub(super) status: SolveStatus,
     pub(super) gap: f64,
@@ -89,7 +89,7 @@ impl Program {
     }
 
     /// Solves it; `None` if it has no admissible point.
-    pub(super) fn solve(self) -> Result<Option<Solution>, SearchError> {
+    pub(super) fn solve(self) -> Result<Option<Minimum>, SearchError> {
         let variables = self.linear.len();
         let diagonal: Vec<usize> = (0..variables).collect();
         let p = CscMatrix::new_from_triplets(
@@ -132,7 +132,7 @@ impl Program {
             }
             _ => return Err(SearchError::NotSolved("numerical error")),
         };
-        Ok(Some(Solution {
+        Ok(Some(Minimum {
             x: DVector::from_vec(solution.x),
             status,
             gap: (solution.obj_val - solution.obj_val_dual).abs(),

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::conic::{Program, Solution};
+use super::conic::{Minimum, Program};
 use super::limits::TorqueLimits;
 use super::pseudo_inverse::pseudo_inverse;
 use crate::search::{SearchError, SolveStatus};
@@ -12,10 +12,10 @@ pub(super) fn least_squares(
     (impact, size): (&DMatrix<f64>, f64),
     step: &DVector<f64>,
     limits: &TorqueLimits,
-) -> Result<Solution, SearchError> {
+) -> Result<Minimum, SearchError> {
     let x = -pseudo_inverse(impact, size) * step;
     if limits.admit(&x) {
-        return Ok(Solution::closed_form(x));
+        return Ok(Minimum::closed_form(x));
     }
     least_squares_program(impact, step, limits, &|_| ())
 }
@@ -26,7 +26,7 @@ pub(super) fn least_squares_program(
     step: &DVector<f64>,
     limits: &TorqueLimits,
     constrain: &dyn Fn(&mut Program),
-) -> Result<Solution, SearchError> {
+) -> Result<Minimum, SearchError> {
     let (joints, variables) = impact.shape();
     let mut program = Program::new(variables + joints);
     program.quadratic[variables..].fill(1.0);
@@ -47,7 +47,7 @@ pub(super) fn min_max(
     impact: &DMatrix<f64>,
     step: &DVector<f64>,
     limits: &TorqueLimits,
-) -> Result<Solution, SearchError> {
+) -> Result<Minimum, SearchError> {
     let variables = impact.ncols();
     let mut program = Program::new(variables + 1);
     program.linear[variables] = 1.0;
@@ -61,7 +61,7 @@ pub(super) fn min_max(
     Ok(solution)
 }
 
-impl Solution {
+impl Minimum {
     pub(super) fn closed_form(x: DVector<f64>) -> Self {
         Self {
             x,

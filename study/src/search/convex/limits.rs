@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::search::{Operation, Sample, SearchError};
+use crate::search::{OperatingPoint, Operation, SearchError};
 
 /// Rated torques on `planned + T x`, both sides of each in turn.
 pub(super) struct TorqueLimits {
@@ -17,7 +17,7 @@ impl TorqueLimits {
     /// Of the samples with their maps T, for the joints that are not locked and have a limit.
     pub(super) fn new<'a, const N: usize>(
         operation: &Operation<N>,
-        samples: impl Iterator<Item = (&'a Sample<N>, DMatrix<f64>)>,
+        samples: impl Iterator<Item = (&'a OperatingPoint<N>, DMatrix<f64>)>,
         variables: usize,
     ) -> Self {
         let mut rows = Vec::new();

@@ -13,8 +13,8 @@ mod pseudo_inverse;
 
 use nalgebra::{DVector, SVector};
 
-use super::{Operation, Outcome};
-use conic::Solution;
+use super::{Operation, Solution};
+use conic::Minimum;
 pub use optimal::{ForcePriority, FrontierPoint, frontier, optimal};
 pub use projected::{Objective, least_impact};
 use ulna::control::compensation::Compensation;
@@ -30,15 +30,15 @@ fn healthy_part<const N: usize>(
     )
 }
 
-impl Solution {
+impl Minimum {
     /// What it is worth as `compensation`.
-    fn outcome<const N: usize>(
+    fn solution<const N: usize>(
         &self,
         operation: &Operation<N>,
         compensation: Compensation<N>,
         seconds: f64,
-    ) -> Outcome<N> {
-        Outcome {
+    ) -> Solution<N> {
+        Solution {
             compensation,
             assessment: operation.assess(&compensation),
             status: self.status,

@@ -4,12 +4,12 @@ use std::time::Instant;
 
 use nalgebra::{DMatrix, DVector, SVector, Vector6};
 
-use super::conic::Solution;
+use super::conic::Minimum;
 use super::healthy_part;
 use super::least::{least_squares, least_squares_program};
 use super::limits::TorqueLimits;
 use super::pseudo_inverse::{column_space, null_space, pseudo_inverse, stack};
-use crate::search::{Operation, Outcome, Sample, SearchError};
+use crate::search::{OperatingPoint, Operation, SearchError, Solution};
 use ulna::TaskRow;
 use ulna::control::compensation::{Compensation, FreeTorque};
 
@@ -31,7 +31,7 @@ pub struct FrontierPoint<const N: usize> {
     /// The force error allowed, N.
     pub allowed: f64,
     /// The best compensation within it.
-    pub outcome: Outcome<N>,
+    pub solution: Solution<N>,
 }
 
 /// The best compensation there is: free torques before and after the lock, the healthy joints' impact least by `priority`,
@@ -41,7 +41,7 @@ pub struct FrontierPoint<const N: usize> {
 pub fn optimal<const N: usize>(
     operation: &Operation<N>,
     priority: ForcePriority,
-) -> Result<Outcome<N>, SearchError> {
+) -> Result<Solution<N>, SearchError> {
     let clock = Instant::now();
     let [before, after] = [operation.before(), operation.after()].map(FreeMap::new);
     let healthy: Vec<usize> = operation.healthy().collect();
@@ -50,14 +50,14 @@ pub fn optimal<const N: usize>(
     let samples = [operation.before(), operation.after()].into_iter();
     let samples = samples.zip(problem.torques.iter().cloned());
     let limits = TorqueLimits::new(operation, samples, problem.impact.ncols());
-    let solution = problem.solve(priority, &limits)?;
+    let minimum = problem.solve(priority, &limits)?;
     let seconds = clock.elapsed().as_secs_f64();
-    let (x_before, x_after) = solution.x.as_slice().split_at(before.torque.ncols());
+    let (x_before, x_after) = minimum.x.as_slice().split_at(before.torque.ncols());
     let compensation = Compensation::Optimal {
         before: before.parameters(x_before),
         after: after.parameters(x_after),
     };
-    Ok(solution.outcome(operation, compensation, seconds))
+    Ok(minimum.solution(operation, compensation, seconds))
 }
 
 /// The least impact over the healthy joints for each force error allowed, N: from all of the tool force kept (0) to any price.
@@ -66,10 +66,10 @@ pub fn frontier<const N: usize>(
     allowed: &[f64],
 ) -> Result<Vec<FrontierPoint<N>>, SearchError> {
     let point = |allowed: &f64| {
-        let outcome = optimal(operation, ForcePriority::AtMost(*allowed))?;
+        let solution = optimal(operation, ForcePriority::AtMost(*allowed))?;
         Ok(FrontierPoint {
             allowed: *allowed,
-            outcome,
+            solution,
         })
     };
     allowed.iter().map(point).collect()
@@ -113,20 +113,20 @@ impl Problem {
         &self,
         priority: ForcePriority,
         limits: &TorqueLimits,
-    ) -> Result<Solution, SearchError> {
+    ) -> Result<Minimum, SearchError> {
         let Self {
             force,
             impact,
             step,
             ..
         } = self;
-        let solution = match priority {
+        let minimum = match priority {
             ForcePriority::Exact | ForcePriority::AtMost(0.0) => {
                 // Without limits, within the null space of E.
                 let keeping = null_space(force);
                 let x = -(&keeping * pseudo_inverse(&(impact * &keeping), impact.amax())) * step;
                 if limits.admit(&x) {
-                    Solution::closed_form(x)
+                    Minimum::closed_form(x)
                 } else {
                     least_squares_program(impact, step, limits, &|program| {
                         program.equal(force, &vec![0.0; force.nrows()]);
@@ -163,7 +163,7 @@ impl Problem {
                 });
             }
         };
-        Ok(solution.with_least_variables(&stack(impact, force), limits))
+        Ok(minimum.with_least_variables(&stack(impact, force), limits))
     }
 }
 
@@ -180,7 +180,7 @@ struct FreeMap {
 }
 
 impl FreeMap {
-    fn new<const N: usize>(sample: &Sample<N>) -> Self {
+    fn new<const N: usize>(sample: &OperatingPoint<N>) -> Self {
         let pose = &sample.pose;
         let unit = |i: usize| SVector::<f64, N>::from_fn(|j, _| f64::from(u8::from(i == j)));
         let mut projector = DMatrix::zeros(N, N);
@@ -192,7 +192,7 @@ impl FreeMap {
         let lifted = DMatrix::from_fn(N, rows.len(), |joint, column| {
             let mut wrench = Vector6::zeros();
             wrench[rows[column]] = 1.0;
-            pose.lift(&wrench)[joint]
+            pose.static_torque(&wrench)[joint]
         });
         let mut torque = (&projector * &null).resize_horizontally(null.ncols() + rows.len(), 0.0);
         torque

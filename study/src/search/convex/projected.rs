@@ -8,7 +8,7 @@ use super::healthy_part;
 use super::least::{least_squares, min_max};
 use super::limits::TorqueLimits;
 use crate::search::coefficients::{CoefficientLaw, Maps, NO_SAY};
-use crate::search::{Operation, Outcome, SearchError};
+use crate::search::{Operation, SearchError, Solution};
 use ulna::control::compensation::Compensation;
 
 /// What of the healthy joints' steps is to be least.
@@ -25,7 +25,7 @@ pub enum Objective {
 pub fn least_impact<const N: usize>(
     operation: &Operation<N>,
     objective: Objective,
-) -> Result<Outcome<N>, SearchError> {
+) -> Result<Solution<N>, SearchError> {
     let clock = Instant::now();
     let maps = Maps::new(operation, CoefficientLaw::Projected);
     // In units in which each coefficient adds at most 1 N·m anywhere.
@@ -48,15 +48,15 @@ pub fn least_impact<const N: usize>(
     let samples = operation.samples().iter().zip(maps.at.iter().map(scaled));
     let limits = TorqueLimits::new(operation, samples, active.len());
 
-    let solution = match objective {
+    let minimum = match objective {
         Objective::LeastSquares => least_squares((&impact, 1.0), &step, &limits)?,
         Objective::MinMax => min_max(&impact, &step, &limits)?,
     };
-    let solution = solution.with_least_variables(&impact, &limits);
+    let minimum = minimum.with_least_variables(&impact, &limits);
     let seconds = clock.elapsed().as_secs_f64();
     let mut k = SVector::zeros();
-    for (i, x) in active.iter().zip(&solution.x) {
+    for (i, x) in active.iter().zip(&minimum.x) {
         k[*i] = x / size[*i];
     }
-    Ok(solution.outcome(operation, Compensation::Projected(k), seconds))
+    Ok(minimum.solution(operation, Compensation::Projected(k), seconds))
 }

@@ -1,4 +1,4 @@
-//! [`Flight`]: a whole motion under the controller, cycle by cycle.
+//! [`Rollout`]: a whole motion under the controller, cycle by cycle.
 
 use nalgebra::SVector;
 
@@ -8,9 +8,9 @@ use ulna::Trajectory;
 use ulna::control::compensation::{Controller, Cycle, Status};
 use ulna::control::failure::{Failure, LockedJoints};
 
-/// What a flight was like.
+/// What a rollout was like.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Flight {
+pub struct Rollout {
     /// The worst status of a cycle.
     pub status: Status,
     /// The largest |τ_i| over all cycles, brakes excepted, N·m (N).
@@ -36,12 +36,12 @@ pub struct Series {
     pub force_error: Vec<[f64; 6]>,
 }
 
-impl Flight {
+impl Rollout {
     /// About so many cycles are kept in the series.
     const SERIES: f64 = 400.0;
 
     /// Flies `motion` with `failure` in it, one call of `controller` every `cycle` s, the tool exerting `force`.
-    pub fn fly<const N: usize>(
+    pub fn execute<const N: usize>(
         controller: &Controller<'_, AnyArm<N>, N>,
         motion: &PlannedMotion<N>,
         force: &ToolForce,
@@ -55,10 +55,10 @@ impl Flight {
         for i in 0..=last {
             let time = cycle * i as f64;
             if time >= failure.time && locked.is_empty() {
-                // The lock falls between two cycles, or on one: both of its sides are flown.
+                // The lock falls between two cycles, or on one: both of its sides are executed.
                 for side in [LockedJoints::NONE, failure.joints] {
                     locked = side;
-                    record.fly(
+                    record.run(
                         controller,
                         motion,
                         force,
@@ -72,7 +72,7 @@ impl Flight {
                 }
             }
             let kept = i % every == 0 || i == last;
-            record.fly(controller, motion, force, failure, (time, locked), kept);
+            record.run(controller, motion, force, failure, (time, locked), kept);
         }
         Self {
             status: record.status,
@@ -100,7 +100,7 @@ impl<const N: usize> Record<N> {
         }
     }
 
-    fn fly(
+    fn run(
         &mut self,
         controller: &Controller<'_, AnyArm<N>, N>,
         motion: &PlannedMotion<N>,

@@ -1,46 +1,47 @@
-//! [`Laboratory`]: an arm on the motion of a scenario, and the experiments made with it.
+//! [`ExperimentRunner`]: an arm on the motion of a scenario, and the experiments made with it.
 
 use std::fmt;
 
 use nalgebra::SVector;
 
 use super::{
-    AnyArm, Case, ExperimentError, Flight, KNOT_PERIOD, Method, Search, Study, Tradeoff, list,
-    rated_torque,
+    AnyArm, Case, ExperimentError, KNOT_PERIOD, Rollout, Search, SearchMethod, Study, Tradeoff,
+    list, rated_torque,
 };
 use crate::scenario::{Experiment, PlannedMotion, Scenario};
 use crate::search::{
-    CoefficientLaw, ForcePriority, FrontierPoint, Objective, Operation, OperationOptions, Outcome,
-    SearchError, Stepwise, cancel_per_joint, equivalent_per_joint, frontier, least_impact, optimal,
+    CoefficientLaw, ForcePriority, FrontierPoint, Objective, Operation, OperationOptions,
+    SearchError, Solution, Stepwise, cancel_per_joint, equivalent_per_joint, frontier,
+    least_impact, optimal,
 };
 use ulna::control::compensation::{Compensation, Controller};
 use ulna::control::failure::{Failure, LockedJoints};
 
 /// An arm on the motion of a scenario, ready for its experiments.
 #[derive(Clone)]
-pub struct Laboratory<'a, const N: usize> {
+pub struct ExperimentRunner<'a, const N: usize> {
     pub(super) arm: &'a AnyArm<N>,
     pub(super) scenario: &'a Scenario,
     motion: PlannedMotion<N>,
     failed_joints: LockedJoints<N>,
 }
 
-impl<const N: usize> fmt::Debug for Laboratory<'_, N> {
+impl<const N: usize> fmt::Debug for ExperimentRunner<'_, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Laboratory")
+        f.debug_struct("ExperimentRunner")
             .field("scenario", self.scenario)
             .finish_non_exhaustive()
     }
 }
 
-impl<'a, const N: usize> Laboratory<'a, N> {
+impl<'a, const N: usize> ExperimentRunner<'a, N> {
     /// How many points of a frontier are computed.
     const FRONTIER_POINTS: u32 = 20;
 
     /// Plans the motion.
     ///
     /// # Errors
-    /// When `arm` is not the scenario's, or cannot fly its motion.
+    /// When `arm` is not the scenario's, or cannot execute its motion.
     pub fn new(arm: &'a AnyArm<N>, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
         let motion = scenario.motion().plan(arm, KNOT_PERIOD)?;
         let failed = scenario.failed_joints();
@@ -84,8 +85,8 @@ impl<'a, const N: usize> Laboratory<'a, N> {
         failure_time: f64,
     ) -> Result<Study, ExperimentError> {
         let operation = self.operation(experiment, failure_time)?;
-        let cases = Method::ALL.map(|method| self.case(experiment, &operation, method));
-        let per_joint = cases[Method::PerJoint as usize].force_error;
+        let cases = SearchMethod::ALL.map(|method| self.case(experiment, &operation, method));
+        let per_joint = cases[SearchMethod::PerJoint as usize].force_error;
         Ok(Study {
             section: experiment.section().to_owned(),
             failure_time,
@@ -113,7 +114,12 @@ impl<'a, const N: usize> Laboratory<'a, N> {
         Ok(operation)
     }
 
-    fn case(&self, experiment: &Experiment, operation: &Operation<N>, method: Method) -> Case {
+    fn case(
+        &self,
+        experiment: &Experiment,
+        operation: &Operation<N>,
+        method: SearchMethod,
+    ) -> Case {
         let found = self.search(operation, method);
         let (compensation, search) = match found {
             Ok(outcome) => (
@@ -131,7 +137,7 @@ impl<'a, const N: usize> Laboratory<'a, N> {
         let failure = operation.failure();
         let controller =
             Controller::new(self.arm, compensation).with_rated_torque(*operation.rated_torque());
-        let flight = Flight::fly(
+        let rollout = Rollout::execute(
             &controller,
             &self.motion,
             experiment.force(),
@@ -153,26 +159,28 @@ impl<'a, const N: usize> Laboratory<'a, N> {
             coefficients: list(&coefficients),
             force_error: assessment.force_error(),
             search,
-            flight,
+            rollout,
         }
     }
 
     pub(super) fn search(
         &self,
         operation: &Operation<N>,
-        method: Method,
-    ) -> Result<Outcome<N>, SearchError> {
+        method: SearchMethod,
+    ) -> Result<Solution<N>, SearchError> {
         let grid = self.scenario.search();
         let stepwise = Stepwise {
             start: SVector::repeat(grid.start()),
             ..Stepwise::with_step(grid.step())
         };
         match method {
-            Method::StepwisePerJoint => stepwise.search(operation, CoefficientLaw::PerJoint),
-            Method::PerJoint => cancel_per_joint(operation),
-            Method::StepwiseProjected => stepwise.search(operation, CoefficientLaw::Projected),
-            Method::Projected => least_impact(operation, Objective::LeastSquares),
-            Method::Optimal => optimal(operation, ForcePriority::Exact),
+            SearchMethod::StepwisePerJoint => stepwise.search(operation, CoefficientLaw::PerJoint),
+            SearchMethod::PerJoint => cancel_per_joint(operation),
+            SearchMethod::StepwiseProjected => {
+                stepwise.search(operation, CoefficientLaw::Projected)
+            }
+            SearchMethod::Projected => least_impact(operation, Objective::LeastSquares),
+            SearchMethod::Optimal => optimal(operation, ForcePriority::Exact),
         }
     }
 }
@@ -188,7 +196,7 @@ fn tradeoff<const N: usize>(
             .map(|i| most * f64::from(i) / f64::from(points))
             .collect();
         let point = |point: &FrontierPoint<N>| {
-            let assessment = &point.outcome.assessment;
+            let assessment = &point.solution.assessment;
             (assessment.force_error(), assessment.healthy_impact)
         };
         let points = frontier(operation, &allowed)?;
