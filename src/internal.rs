@@ -1,7 +1,7 @@
 //! What generated code and the other crates of ulna need of this one, and users do not: it may change with any version.
 
 pub use crate::arm::bounds;
-pub use crate::arm::coordinates::{are_plain, coordinates, prismatic_offset, revolute_angle};
+pub use crate::arm::coordinates::{coordinate, coordinates};
 pub use crate::arm::quantity::Quantity;
 pub use crate::kernels::real::Part;
 pub use crate::kernels::scalar as methods;

@@ -2,7 +2,7 @@
 
 use nalgebra::{SVector, vector};
 use ulna::{Arm, SerialChain};
-use ulna_codegen::{Exact, Interpreter};
+use ulna_codegen::Interpreter;
 use ulna_table::Model;
 
 /// A joint of an arm: what stands under its `[[joint]]`, and its link's mass, centroid and inertia.
@@ -45,7 +45,7 @@ fn model(text: &str) -> Model {
 }
 
 /// The textbook, the emitted programs, and the same with twice as many digits.
-fn arms<const N: usize>(text: &str) -> (SerialChain<N>, Interpreter<N>, Exact<N>) {
+fn arms<const N: usize>(text: &str) -> (SerialChain<N>, Interpreter<N>, Interpreter<N>) {
     let model = model(text);
     let joints = "the table has as many joints as the test says";
     let programs = Interpreter::new(&model).expect(joints);

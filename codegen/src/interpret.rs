@@ -1,31 +1,44 @@
 //! The generated programs, run as they are without a compiler: `ulna verify` proves a table's code this way.
 
-use std::marker::PhantomData;
 use std::sync::Arc;
 
 use nalgebra::SVector;
 use ulna::internal::{Quantity, coordinates};
 use ulna::proof::State;
-use ulna::{Arm, Method, SerialChain, TaskRows};
+use ulna::{Arm, Joint, JointKind, Method, SerialChain, TaskRows};
 use ulna_table::{JointCountError, Model};
 
 use crate::Compiled;
-use crate::accuracy::{Scalar, read};
+use crate::accuracy::{Arguments, Scalar};
 use crate::double_double::DoubleDouble;
+use crate::schedule::Program;
 
-/// An arm that evaluates its programs step by step, on the scalars `R`; results are rounded to `f64`.
-#[derive(Debug)]
-pub struct Interpreter<const N: usize, R = f64> {
+/// An arm that evaluates its programs step by step, in `f64` or, if it is [exact](Self::exact), in 106 bits.
+#[derive(Clone, Debug)]
+pub struct Interpreter<const N: usize> {
     chain: SerialChain<N>,
     compiled: Arc<Compiled>,
-    scalar: PhantomData<R>,
+    arithmetic: Arithmetic,
 }
 
-/// An arm without rounding errors but those of its results: its programs run on numbers of 106 bits.
-pub type Exact<const N: usize> = Interpreter<N, DoubleDouble>;
+/// What programs are run in; results are rounded to `f64`.
+#[derive(Clone, Copy, Debug)]
+struct Arithmetic {
+    coordinate: fn(JointKind, f64) -> f64,
+    run: fn(&Program, Arguments<'_>) -> Vec<f64>,
+}
+
+impl Arithmetic {
+    fn of<R: Scalar>() -> Self {
+        Self {
+            coordinate: R::coordinate,
+            run: R::run,
+        }
+    }
+}
 
 impl<const N: usize> Interpreter<N> {
-    /// The arm of `model`, compiled to programs.
+    /// The arm of `model`, compiled to programs that run in `f64`.
     ///
     /// # Errors
     /// When the model has another number of joints than `N`.
@@ -33,21 +46,18 @@ impl<const N: usize> Interpreter<N> {
         Ok(Self {
             chain: SerialChain::try_from(model)?,
             compiled: Arc::new(crate::compile(model)),
-            scalar: PhantomData,
+            arithmetic: Arithmetic::of::<f64>(),
         })
     }
 
-    /// The same programs, run without rounding errors.
-    pub fn exact(&self) -> Exact<N> {
-        Interpreter {
-            chain: self.chain,
-            compiled: Arc::clone(&self.compiled),
-            scalar: PhantomData,
+    /// The same programs without rounding errors but those of their results: they run in numbers of 106 bits.
+    pub fn exact(&self) -> Self {
+        Self {
+            arithmetic: Arithmetic::of::<DoubleDouble>(),
+            ..self.clone()
         }
     }
-}
 
-impl<const N: usize, R: Scalar> Interpreter<N, R> {
     /// What it runs.
     pub fn compiled(&self) -> &Compiled {
         &self.compiled
@@ -55,31 +65,63 @@ impl<const N: usize, R: Scalar> Interpreter<N, R> {
 
     /// A method's result at a state, of which it reads its arguments.
     fn run<T: Quantity>(&self, method: Method, state: &State<N>) -> T {
-        let mut result = T::zero();
-        let found = &self.compiled.methods;
-        let Some(found) = found.iter().find(|found| found.method == method) else {
-            return result;
-        };
-        let program = &found.program;
-        let q = R::coordinates(&self.chain, &state.q);
-        let others = [&state.qd, &state.qdd, &state.tau].map(SVector::as_slice);
-        let numbers = program.evaluate(R::number, |input, angles| {
-            read::<R>(input, angles, q.as_slice(), others)
-        });
-        let mut numbers = numbers.into_iter().map(R::to_f64);
-        for part in 0..T::PARTS {
-            for (place, number) in result.part_mut(part).iter_mut().zip(&mut numbers) {
-                *place = number;
-            }
+        let (numbers, is_singular) = self.numbers(method, state);
+        let result: T = assembled(&numbers);
+        match method.zero_where_singular() {
+            Some(zero) if is_singular => result.zero_from(zero),
+            _ => result,
         }
-        if let (Some(zero), Some(volume_squared)) = (method.zero_where_singular(), numbers.next()) {
-            let q = coordinates(&self.chain, &state.q.data.0[0]);
-            if self.chain.is_singular(&q, volume_squared) {
-                result = result.zero_from(zero);
-            }
-        }
-        result
     }
+
+    /// The numbers of a method's result, and whether the task is singular, if that matters to the method.
+    fn numbers(&self, method: Method, state: &State<N>) -> (Vec<f64>, bool) {
+        let State { q, qd, qdd, tau } = state;
+        let arguments = [q.as_slice(), qd.as_slice(), qdd.as_slice(), tau.as_slice()];
+        let mut numbers = numbers(
+            &self.compiled,
+            method,
+            &self.chain.joints,
+            arguments,
+            self.arithmetic,
+        );
+        if method.zero_where_singular().is_none() {
+            return (numbers, false);
+        }
+        let volume_squared = numbers.pop().unwrap_or(0.0);
+        let q = coordinates(&self.chain, &q.data.0[0]);
+        (numbers, self.chain.is_singular(&q, volume_squared))
+    }
+}
+
+/// All that a method's kernel returns. Apart from the interpreter: it does not depend on the number of joints.
+fn numbers(
+    compiled: &Compiled,
+    method: Method,
+    joints: &[Joint],
+    [q, qd, qdd, tau]: Arguments<'_>,
+    arithmetic: Arithmetic,
+) -> Vec<f64> {
+    let Some(found) = compiled.methods.iter().find(|found| found.method == method) else {
+        return Vec::new();
+    };
+    let read = joints.iter().zip(q);
+    let q: Vec<f64> = read
+        .map(|(joint, q)| (arithmetic.coordinate)(joint.kind, *q))
+        .collect();
+    (arithmetic.run)(&found.program, [&q, qd, qdd, tau])
+}
+
+/// A result from its numbers, part by part.
+fn assembled<T: Quantity>(mut numbers: &[f64]) -> T {
+    let mut result = T::zero();
+    for part in 0..T::PARTS {
+        let places = result.part_mut(part);
+        if let Some((own, rest)) = numbers.split_at_checked(places.len()) {
+            places.copy_from_slice(own);
+            numbers = rest;
+        }
+    }
+    result
 }
 
 macro_rules! define_interpreter {
@@ -88,7 +130,7 @@ macro_rules! define_interpreter {
         $variant:ident = $method:ident($($argument:ident),+) -> $output:ty
         $({ $($rest:tt)* })*
     )+) => {
-        impl<const N: usize, R: Scalar> Arm<N> for Interpreter<N, R> {
+        impl<const N: usize> Arm<N> for Interpreter<N> {
             fn task(&self) -> TaskRows {
                 self.chain.task
             }

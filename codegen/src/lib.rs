@@ -15,7 +15,7 @@
 //! - [`compile_arms`] and [`compile_folder`]: for build scripts. The crate `ulna-macros` does it without one, the program `ulna` by hand.
 //! - [`generate`]: a [`Model`] in, [`Generated`] code out, as text or tokens.
 //! - [`compile`]: the [`Program`]s that code is printed from, for whoever prints them in another way.
-//! - [`Interpreter`]: an arm that runs its programs without a compiler; [`Exact`] runs them in 106 bits.
+//! - [`Interpreter`]: an arm that runs its programs without a compiler, in `f64` or in 106 bits.
 //!
 //! There are no features.
 //!
@@ -56,7 +56,7 @@ pub use cost::Counts;
 pub use double_double::DoubleDouble;
 pub use emit::Generated;
 pub use graph::{AngleSum, Input};
-pub use interpret::{Exact, Interpreter};
+pub use interpret::Interpreter;
 pub use op::Op;
 pub use schedule::{Operand, Output, Program, Size, Step};
 

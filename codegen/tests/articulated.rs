@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ulna::{JointKind, Method};
-use ulna_codegen::internal::{Chain, Choices, Graph, Scalar, formulate, read, schedule};
+use ulna_codegen::internal::{Chain, Choices, Graph, Scalar, formulate, schedule};
 use ulna_codegen::{DoubleDouble, Program};
 use ulna_table::Model;
 
@@ -19,9 +19,7 @@ fn gradient(model: &Model, articulated: bool) -> Program {
 }
 
 fn run<R: Scalar>(program: &Program, q: &[f64]) -> Vec<f64> {
-    let none = [&[][..]; 3];
-    let values = program.evaluate(R::number, |input, angles| read::<R>(input, angles, q, none));
-    values.into_iter().map(R::to_f64).collect()
+    R::run(program, [q, &[], &[], &[]])
 }
 
 /// The largest difference, relative to the largest value.

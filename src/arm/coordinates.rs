@@ -11,7 +11,7 @@ pub const PRISMATIC_LIMIT: f64 = 1e3;
 /// A prismatic joint's coordinate as every backend reads it: held within ±[`PRISMATIC_LIMIT`],
 /// so that no finite coordinate, however absurd, makes a result NaN. An infinite one is no coordinate: NaN.
 #[inline]
-pub fn prismatic_offset(q: f64) -> f64 {
+pub(crate) fn prismatic_offset(q: f64) -> f64 {
     if q.is_infinite() {
         f64::NAN
     } else {
@@ -27,7 +27,7 @@ pub const PLAIN_LIMIT: f64 = 16.0;
 /// Generated code adds angles of parallel joints before it takes their sine; of large angles the sum would be rounded
 /// coarsely, or overflow. The sine and cosine of the angle itself are exact however large it is.
 #[inline]
-pub fn revolute_angle(q: f64) -> f64 {
+pub(crate) fn revolute_angle(q: f64) -> f64 {
     if q.abs() <= PLAIN_LIMIT {
         q
     } else {
@@ -38,7 +38,7 @@ pub fn revolute_angle(q: f64) -> f64 {
 
 /// Whether kernels may read the joint coordinates as they are: always, but for absurd ones.
 #[inline(always)]
-pub fn are_plain<const N: usize>(q: &[f64; N]) -> bool {
+pub(crate) fn are_plain<const N: usize>(q: &[f64; N]) -> bool {
     largest(q.map(f64::abs)) <= PLAIN_LIMIT
 }
 
@@ -56,8 +56,13 @@ fn largest<const K: usize>(numbers: [f64; K]) -> f64 {
 /// Joint coordinates as kernels read them: finite results for every finite coordinate.
 #[cold]
 pub fn coordinates<const N: usize>(chain: &SerialChain<N>, q: &[f64; N]) -> [f64; N] {
-    core::array::from_fn(|i| match chain.joints[i].kind {
-        JointKind::Revolute => revolute_angle(q[i]),
-        JointKind::Prismatic => prismatic_offset(q[i]),
-    })
+    core::array::from_fn(|i| coordinate(chain.joints[i].kind, q[i]))
+}
+
+/// A joint's coordinate as kernels read it.
+pub fn coordinate(kind: JointKind, q: f64) -> f64 {
+    match kind {
+        JointKind::Revolute => revolute_angle(q),
+        JointKind::Prismatic => prismatic_offset(q),
+    }
 }

@@ -67,6 +67,24 @@ pub const fn least_volume_squared(
     least * least
 }
 
+/// Whether `volume_squared` counts as 0 at `q`, where `least` is the [`least_volume_squared`].
+///
+/// A volume that is NaN has been divided by a row of length 0: singular, unless `q` itself is no configuration.
+#[inline(always)]
+pub const fn counts_as_zero(volume_squared: f64, least: f64, q: &[f64]) -> bool {
+    if volume_squared > least {
+        return false;
+    }
+    let mut i = 0;
+    while i < q.len() {
+        if !q[i].is_finite() {
+            return false;
+        }
+        i += 1;
+    }
+    true
+}
+
 impl<const N: usize> SerialChain<N> {
     /// The chain's [`length`] at `q`, m.
     #[inline(always)]
@@ -74,22 +92,10 @@ impl<const N: usize> SerialChain<N> {
         length(&self.joints, &self.tool, q)
     }
 
-    /// Whether w_D counts as 0 at `q`, from `volume_squared` = det(JJᵀ) over the task's rows, in SI units.
-    ///
-    /// A volume that is NaN has been divided by a row of length 0: singular, unless `q` itself is no configuration.
+    /// Whether w_D counts as 0 at `q`, from `volume_squared` = det(JJᵀ) over the task's rows, in SI units: [`counts_as_zero`].
     #[inline(always)]
     pub const fn is_singular(&self, q: &[f64; N], volume_squared: f64) -> bool {
         let least = least_volume_squared(&self.joints, &self.tool, self.task, q);
-        if volume_squared > least {
-            return false;
-        }
-        let mut i = 0;
-        while i < N {
-            if !q[i].is_finite() {
-                return false;
-            }
-            i += 1;
-        }
-        true
+        counts_as_zero(volume_squared, least, q)
     }
 }

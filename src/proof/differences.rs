@@ -17,9 +17,9 @@ const KINK: f64 = 1e3;
 /// 1e-8, and what the differences themselves are unsure of. That is the rounding of what they are taken of,
 /// over the step, and twice what they change by when the step is doubled. Beside a singular pose ∇w_D is left out.
 pub fn compare<const N: usize>(
-    arm: &impl Arm<N>,
+    arm: &dyn Arm<N>,
     chain: &SerialChain<N>,
-    states: impl Iterator<Item = State<N>>,
+    states: impl IntoIterator<Item = State<N>>,
 ) -> Report {
     let mut report = Report::new(&[
         Method::JacobianDerivatives.name(),
@@ -33,7 +33,7 @@ pub fn compare<const N: usize>(
 }
 
 fn errors<const N: usize>(
-    arm: &impl Arm<N>,
+    arm: &dyn Arm<N>,
     chain: &SerialChain<N>,
     q: &SVector<f64, N>,
 ) -> [(f64, f64); 3] {

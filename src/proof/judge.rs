@@ -14,8 +14,8 @@ type Vector<const N: usize> = SVector<f64, N>;
 type Verdict = (f64, f64);
 
 /// What a reference says at a state, as far as several rules need it.
-pub(super) struct Judge<'a, A, const N: usize> {
-    reference: &'a A,
+pub(super) struct Judge<'a, const N: usize> {
+    reference: &'a dyn Arm<N>,
     chain: &'a SerialChain<N>,
     state: &'a State<N>,
     scale: Scale<N>,
@@ -29,8 +29,12 @@ fn rounded<const N: usize>(error: f64) -> Verdict {
 }
 
 /// A rule takes what the candidate found, and what tells what the reference does.
-impl<'a, A: Arm<N>, const N: usize> Judge<'a, A, N> {
-    pub(super) fn new(reference: &'a A, chain: &'a SerialChain<N>, state: &'a State<N>) -> Self {
+impl<'a, const N: usize> Judge<'a, N> {
+    pub(super) fn new(
+        reference: &'a dyn Arm<N>,
+        chain: &'a SerialChain<N>,
+        state: &'a State<N>,
+    ) -> Self {
         let (manipulability, gradient) = reference.dynamic_manipulability_gradient(&state.q);
         Self {
             reference,

@@ -91,7 +91,7 @@ impl<const N: usize> State<N> {
 /// # }
 /// ```
 pub fn compare<const N: usize>(
-    candidate: &impl Arm<N>,
+    candidate: &dyn Arm<N>,
     chain: &SerialChain<N>,
     states: impl IntoIterator<Item = State<N>>,
 ) -> Report {
@@ -109,10 +109,20 @@ macro_rules! define_comparison {
     )+) => {
         /// [`compare`] with another reference; `chain` tells how large its quantities can be.
         pub fn compare_with<const N: usize>(
-            candidate: &impl Arm<N>,
-            reference: &impl Arm<N>,
+            candidate: &dyn Arm<N>,
+            reference: &dyn Arm<N>,
             chain: &SerialChain<N>,
             states: impl IntoIterator<Item = State<N>>,
+        ) -> Report {
+            compare_at(candidate, reference, chain, &mut states.into_iter())
+        }
+
+        /// Compiled once for each number of joints, whatever the arms.
+        fn compare_at<const N: usize>(
+            candidate: &dyn Arm<N>,
+            reference: &dyn Arm<N>,
+            chain: &SerialChain<N>,
+            states: &mut dyn Iterator<Item = State<N>>,
         ) -> Report {
             let mut report = Report::new(&["task", "rated_torque", $(stringify!($method)),+]);
             let equal = |same: bool| (if same { 0.0 } else { f64::INFINITY }, 0.0);
@@ -139,7 +149,7 @@ crate::methods! { [N] define_comparison {} }
 /// The first-order condition number of w_D at `q`: its relative change, at worst, where every entry of J and M changes by ε of the
 /// largest that its terms can be, is ε times this. 0 where w_D is 0.
 pub fn condition<const N: usize>(
-    reference: &impl Arm<N>,
+    reference: &dyn Arm<N>,
     chain: &SerialChain<N>,
     q: &SVector<f64, N>,
 ) -> f64 {

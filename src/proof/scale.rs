@@ -23,11 +23,7 @@ pub(super) struct Scale<const N: usize> {
 }
 
 impl<const N: usize> Scale<N> {
-    pub(super) fn new(
-        reference: &impl Arm<N>,
-        chain: &SerialChain<N>,
-        q: &SVector<f64, N>,
-    ) -> Self {
+    pub(super) fn new(reference: &dyn Arm<N>, chain: &SerialChain<N>, q: &SVector<f64, N>) -> Self {
         let coordinates = crate::arm::coordinates::coordinates(chain, &q.data.0[0]);
         let length = chain.length(&coordinates);
         let inertia = SVector::from_fn(|i, _| {
@@ -56,7 +52,7 @@ impl<const N: usize> Scale<N> {
     ///
     /// Σ |W_rj| s_r + Σ |(HᵀW)_ij| m_i m_j, s the sizes of J's entries and m m that of M's:
     /// δ ln w_D = ⟨W, δJ⟩ − ⟨HᵀW, δM⟩, with H = JM⁻¹ and W = (H†)ᵀM⁻¹.
-    fn condition_of_manipulability(&self, reference: &impl Arm<N>, q: &SVector<f64, N>) -> f64 {
+    fn condition_of_manipulability(&self, reference: &dyn Arm<N>, q: &SVector<f64, N>) -> f64 {
         if reference.dynamic_manipulability(q) == 0.0 {
             return 0.0;
         }

@@ -2,7 +2,7 @@
 
 use ulna::SerialChain;
 use ulna::proof::{State, states};
-use ulna_codegen::{Exact, Generated, Interpreter, generate};
+use ulna_codegen::{Generated, Interpreter, generate};
 use ulna_table::Model;
 
 use super::arms::Arm;
@@ -138,7 +138,7 @@ impl Examination {
         arm: &Arm,
         programs: &Interpreter<N>,
         chain: &SerialChain<N>,
-        exact: &Exact<N>,
+        exact: &Interpreter<N>,
         samples: usize,
     ) {
         let all = || states(chain).skip(arm.first_state);
@@ -165,7 +165,7 @@ impl Examination {
         &mut self,
         programs: &Interpreter<N>,
         chain: &SerialChain<N>,
-        exact: &Exact<N>,
+        exact: &Interpreter<N>,
         state: State<N>,
     ) {
         let conditions = conditions(chain, &state.q);

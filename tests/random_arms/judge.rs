@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, SVector};
 use ulna::arm::singular::least_volume_squared;
 use ulna::proof::{State, compare_with, condition, differences};
 use ulna::{Arm as _, SerialChain, TaskRow};
-use ulna_codegen::{Exact, Interpreter};
+use ulna_codegen::Interpreter;
 
 const ABOUT_W: [&str; 3] = [
     "dynamic_manipulability",
@@ -45,7 +45,7 @@ impl Judgement {
 pub(crate) fn judge<const N: usize>(
     programs: &Interpreter<N>,
     chain: &SerialChain<N>,
-    exact: &Exact<N>,
+    exact: &Interpreter<N>,
     state: State<N>,
 ) -> Vec<Judgement> {
     let of_programs = compare_with(programs, exact, chain, [state]);
@@ -99,7 +99,7 @@ pub(crate) fn judge<const N: usize>(
 fn as_the_file_states<const N: usize>(
     programs: &Interpreter<N>,
     chain: &SerialChain<N>,
-    exact: &Exact<N>,
+    exact: &Interpreter<N>,
     state: &State<N>,
 ) -> Option<Judgement> {
     let (w, gradient) = programs.dynamic_manipulability_gradient(&state.q);

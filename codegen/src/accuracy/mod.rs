@@ -3,6 +3,7 @@
 //! The states are random ones and, since that is where digits are lost, others walked from there towards singular poses.
 //! Only operations that every machine rounds alike go into it, so that the same table gives the same figures everywhere.
 
+mod scalar;
 mod state;
 mod walk;
 
@@ -18,7 +19,8 @@ use crate::formulate::task::relative_volume;
 use crate::graph::Graph;
 use crate::schedule::{Program, Size, schedule};
 
-pub use state::{Scalar, read};
+pub(crate) use scalar::Arguments;
+pub use scalar::Scalar;
 
 use state::State;
 use walk::walk;
