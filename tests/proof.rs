@@ -184,7 +184,7 @@ fn derivatives_are_compared_where_they_vanish_and_beside_the_kink_of_w_d() {
             q: SVector::from([0.7, elbow]),
             ..State::default()
         };
-        let report = differences::compare(&Planar2r, &Planar2r::CHAIN, [state].into_iter());
+        let report = differences::compare(&Planar2r, &Planar2r::CHAIN, [state]);
         assert!(report.passes(), "{elbow}: {report}");
     }
 }

@@ -59,7 +59,7 @@ pub(crate) fn judge<const N: usize>(
         })
     });
     let mut judgements: Vec<_> = judgements.collect();
-    let by_differences = differences::compare(programs, chain, [state].into_iter());
+    let by_differences = differences::compare(programs, chain, [state]);
     judgements.extend(
         by_differences
             .deviations()
