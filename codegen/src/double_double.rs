@@ -231,7 +231,7 @@ impl Real for DoubleDouble {
         root + rest / (root * Self::of(2.0))
     }
 
-    /// Within ±[`LARGEST_ANGLE`].
+    /// Within ±`LARGEST_ANGLE`.
     fn sin_cos(self) -> (Self, Self) {
         let quarters = (self.high / HALF_PI[0]).round();
         // Each product is exact in two doubles.

@@ -19,7 +19,7 @@ pub(crate) fn prismatic_offset(q: f64) -> f64 {
     }
 }
 
-/// Up to here coordinates, rad or m, are read as they are by [`revolute_angle`] and [`prismatic_offset`]: two turns and a half.
+/// Up to here coordinates, rad or m, are read as they are: two turns and a half. Beyond it a revolute joint's is the same angle within ±π.
 pub const PLAIN_LIMIT: f64 = 16.0;
 
 /// A revolute joint's coordinate as generated code reads it: beyond [`PLAIN_LIMIT`], the same angle within ±π. NaN if infinite.
