@@ -106,20 +106,16 @@ impl<'a, const N: usize> Judge<'a, N> {
         (worse(masses, changes), allowed)
     }
 
-    /// The error of the mass matrix whose inverse it is: `M X − 1`, beside what the terms of M amount to.
+    /// An entry's error beside what it changes by, at worst and to first order, where M's entries change by ε of what they can amount to:
+    /// `δM⁻¹ = −M⁻¹ δM M⁻¹`.
     pub(super) fn inverse_masses(
         &self,
         found: Square<N>,
-        _: impl FnOnce() -> Square<N>,
+        expected: impl FnOnce() -> Square<N>,
     ) -> Verdict {
-        let residual = self.reference.mass_matrix(&self.state.q) * found - Square::identity();
-        let sizes = &self.scale.inertia;
-        let error = |(i, j): (usize, usize)| {
-            let terms: f64 = (0..N).map(|k| sizes[k] * found[(k, j)].abs()).sum();
-            residual[(i, j)].abs() / (sizes[i] * terms)
-        };
-        let entries = (0..N).flat_map(|i| (0..N).map(move |j| (i, j)));
-        rounded::<N>(entries.map(error).fold(0.0, worse))
+        let expected = expected();
+        let sizes = expected.abs() * self.scale.inertia;
+        rounded::<N>(Scale::masses(&sizes, &(found - expected)))
     }
 
     pub(super) fn manipulability(&self, found: f64, expected: impl FnOnce() -> f64) -> Verdict {
