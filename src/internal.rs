@@ -5,7 +5,5 @@ pub use crate::arm::coordinates::{coordinate, coordinates};
 pub use crate::arm::quantity::Quantity;
 pub use crate::kernels::real::Part;
 pub use crate::kernels::scalar as methods;
-pub use crate::kernels::simd::{BLOCK, BatchCall, Call, Double, Lanes, MAX_WIDTH, run, run_batch};
-pub use crate::kernels::trigonometry;
 pub use crate::proof::calls::{call, numbers};
 pub use crate::proof::random;

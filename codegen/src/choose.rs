@@ -69,9 +69,7 @@ pub(super) fn conditioned(
     choices: Choices,
     states: &TestStates,
 ) -> Option<Conditioned> {
-    let gradient = methods
-        .iter()
-        .find(|compiled| compiled.method == GRADIENT)?;
+    let gradient = MethodProgram::of(methods, GRADIENT)?;
     if choices.singular {
         return None;
     }

@@ -8,10 +8,10 @@ use ulna::proof::State;
 use ulna::{Arm, Joint, JointKind, Method, SerialChain, TaskRows};
 use ulna_table::{JointCountError, Model};
 
-use crate::Compiled;
 use crate::accuracy::{Arguments, Scalar};
 use crate::double_double::DoubleDouble;
 use crate::schedule::Program;
+use crate::{Compiled, MethodProgram};
 
 /// An arm that evaluates its programs step by step, in `f64` or, if it is [exact](Self::exact), in 106 bits.
 #[derive(Clone, Debug)]
@@ -101,7 +101,7 @@ fn numbers(
     [q, qd, qdd, tau]: Arguments<'_>,
     arithmetic: Arithmetic,
 ) -> Vec<f64> {
-    let Some(found) = compiled.methods.iter().find(|found| found.method == method) else {
+    let Some(found) = MethodProgram::of(&compiled.methods, method) else {
         return Vec::new();
     };
     let read = joints.iter().zip(q);

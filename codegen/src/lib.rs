@@ -77,6 +77,12 @@ pub struct MethodProgram {
     pub error: f64,
 }
 
+impl MethodProgram {
+    fn of(methods: &[Self], method: Method) -> Option<&Self> {
+        methods.iter().find(|found| found.method == method)
+    }
+}
+
 /// An arm's methods as programs.
 #[derive(Debug)]
 pub struct Compiled {

@@ -5,7 +5,7 @@ pub(crate) mod batch;
 pub(crate) mod real;
 pub mod scalar;
 pub(crate) mod simd;
-pub mod trigonometry;
+pub(crate) mod trigonometry;
 
 use crate::{Real, SerialChain};
 

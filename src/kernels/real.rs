@@ -108,7 +108,7 @@ macro_rules! scalar {
 }
 
 scalar!(f64, libm::sqrt, libm::sincos, {
-    /// By [`trigonometry`](crate::kernels::trigonometry), as lanes do it.
+    /// Without branches, as lanes do it.
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
         let (mut sines, mut cosines) = (angles, angles);

@@ -39,7 +39,7 @@ const COS: [f64; 6] = [
 ];
 
 /// Scalars that can be turned by quarters.
-pub trait Quarters: Real {
+pub(crate) trait Quarters: Real {
     /// Sine and cosine of an angle and a number of quarter turns, from those of the angle;
     /// the number is in the last bits of `quarters`.
     fn turn(quarters: Self, sin: Self, cos: Self) -> (Self, Self);
@@ -64,7 +64,7 @@ impl Quarters for f64 {
 
 /// Sine and cosine of an angle within ±2²⁶ rad.
 #[inline(always)]
-pub fn sin_cos<R: Quarters>(angle: R) -> (R, R) {
+pub(crate) fn sin_cos<R: Quarters>(angle: R) -> (R, R) {
     let quarters = angle.mul_add(R::of(FRAC_2_PI), R::of(ROUNDER));
     let whole = quarters - R::of(ROUNDER);
     let [high, middle, low] = PARTS;

@@ -97,12 +97,12 @@ impl<'a, const N: usize> Judge<'a, N> {
 
     pub(super) fn masses_and_derivatives(
         &self,
-        found: (Square<N>, [Square<N>; N]),
-        expected: impl FnOnce() -> (Square<N>, [Square<N>; N]),
+        (mass, derivatives): (Square<N>, [Square<N>; N]),
+        _: impl FnOnce() -> (Square<N>, [Square<N>; N]),
     ) -> Verdict {
-        let (mass, derivatives) = expected();
-        let (masses, allowed) = self.masses(found.0, || mass);
-        let (changes, _) = self.mass_derivatives(found.1, || derivatives);
+        let expected = || self.reference.mass_matrix(&self.state.q);
+        let (masses, allowed) = self.masses(mass, expected);
+        let (changes, _) = self.mass_derivatives(derivatives, || self.mass_derivatives);
         (worse(masses, changes), allowed)
     }
 
@@ -118,8 +118,8 @@ impl<'a, const N: usize> Judge<'a, N> {
         rounded::<N>(Scale::masses(&sizes, &(found - expected)))
     }
 
-    pub(super) fn manipulability(&self, found: f64, expected: impl FnOnce() -> f64) -> Verdict {
-        let error = relative(found - expected(), self.manipulability);
+    pub(super) fn manipulability(&self, found: f64, _: impl FnOnce() -> f64) -> Verdict {
+        let error = relative(found - self.manipulability, self.manipulability);
         (error, self.conditioned(1.0))
     }
 
@@ -132,7 +132,7 @@ impl<'a, const N: usize> Judge<'a, N> {
         let largest = self.gradient.amax().max(self.manipulability);
         let difference = found.1 - self.gradient;
         let slopes = (0..N).map(|i| relative(difference[i] * self.unit(i), largest));
-        let value = relative(found.0 - self.manipulability, self.manipulability);
+        let (value, _) = self.manipulability(found.0, || self.manipulability);
         (slopes.fold(value, worse), self.conditioned(4.0))
     }
 

@@ -19,7 +19,7 @@ use judge::Judge;
 pub use report::{Deviation, Report};
 use scale::Scale;
 
-use crate::{Argument, Arm, JointKind, SerialChain};
+use crate::{Arm, JointKind, SerialChain};
 use random::SplitMix64;
 
 /// A configuration of an arm, its motion, and its motors' torques.
@@ -65,18 +65,6 @@ impl<const N: usize> Default for State<N> {
             qd: zero,
             qdd: zero,
             tau: zero,
-        }
-    }
-}
-
-impl<const N: usize> State<N> {
-    /// The argument of a method.
-    pub fn argument(&self, argument: Argument) -> &SVector<f64, N> {
-        match argument {
-            Argument::Q => &self.q,
-            Argument::Qd => &self.qd,
-            Argument::Qdd => &self.qdd,
-            Argument::Tau => &self.tau,
         }
     }
 }

@@ -7,6 +7,7 @@ mod scalar;
 mod state;
 mod walk;
 
+use ulna::arm::singular;
 use ulna::internal::bounds::carried_inertia;
 use ulna::internal::random::SplitMix64;
 use ulna::{Real as _, TaskRow};
@@ -79,7 +80,7 @@ impl TestStates {
             .collect();
         let singular_everywhere = states.iter().all(|state| {
             let volume_squared = state.exactly(&program)[0].to_f64();
-            volume_squared.is_nan() || volume_squared <= least_volume_squared(model, &state.q)
+            counts_as_zero(model, &state.q, volume_squared)
         });
         if !singular_everywhere {
             let near: Vec<State> = states[..NEAR_SINGULAR]
@@ -222,12 +223,13 @@ fn condition(model: &Model, q: &[f64], sensitivity: &[f64]) -> f64 {
 
 /// `SerialChain::length` of a chain whose number of joints is known at run time.
 fn length(model: &Model, q: &[f64]) -> f64 {
-    ulna::arm::singular::length(model.joints(), model.tool(), q)
+    singular::length(model.joints(), model.tool(), q)
 }
 
-/// The same of the volume up to which w_D counts as 0.
-fn least_volume_squared(model: &Model, q: &[f64]) -> f64 {
-    ulna::arm::singular::least_volume_squared(model.joints(), model.tool(), model.task(), q)
+/// The same of `SerialChain::is_singular`.
+fn counts_as_zero(model: &Model, q: &[f64], volume_squared: f64) -> bool {
+    let least = singular::least_volume_squared(model.joints(), model.tool(), model.task(), q);
+    singular::counts_as_zero(volume_squared, least, q)
 }
 
 /// An error to one digit, not less than it is.

@@ -27,12 +27,12 @@ pub use instructions::Instructions;
 pub(crate) use plain::{Plain, Settled};
 
 /// A [`Real`] of one double in memory.
-pub trait Double: Real + Pod {}
+pub(crate) trait Double: Real + Pod {}
 
 impl Double for f64 {}
 
 /// A computation on any scalar of one double.
-pub trait Call {
+pub(crate) trait Call {
     /// Its result.
     type Output;
 
@@ -41,7 +41,7 @@ pub trait Call {
 }
 
 /// Several doubles at once: a [`Real`] that a batch of configurations runs on.
-pub trait Lanes: Real {
+pub(crate) trait Lanes: Real {
     /// How many.
     const WIDTH: usize;
 
@@ -66,13 +66,13 @@ pub trait Lanes: Real {
 }
 
 /// No lanes are wider.
-pub const MAX_WIDTH: usize = 8;
+pub(crate) const MAX_WIDTH: usize = 8;
 
 /// How many results are handed out at once.
-pub const BLOCK: usize = 8;
+pub(crate) const BLOCK: usize = 8;
 
 /// A computation for many states, on lanes or one by one.
-pub trait BatchCall {
+pub(crate) trait BatchCall {
     /// Lanes are quicker where a register holds at least so many doubles.
     const LEAST_WIDTH: usize;
 
@@ -86,7 +86,7 @@ pub trait BatchCall {
 
 /// Runs `call` on scalars that fuse multiply-adds if the machine does.
 #[inline]
-pub fn run<C: Call>(call: C) -> C::Output {
+pub(crate) fn run<C: Call>(call: C) -> C::Output {
     #[cfg(all(feature = "std", target_arch = "x86_64"))]
     return run_on(Instructions::in_use() >= Instructions::Avx2, call);
     #[cfg(not(all(feature = "std", target_arch = "x86_64")))]
@@ -115,7 +115,7 @@ fn run_fused<C: Call>(call: C) -> C::Output {
 
 /// Runs `call` for so many states: on the widest lanes that they fill, the rest on narrower ones or one by one.
 #[inline]
-pub fn run_batch<C: BatchCall>(call: &mut C, states: usize) {
+pub(crate) fn run_batch<C: BatchCall>(call: &mut C, states: usize) {
     let done = run_in_lanes(call, states);
     call.one_by_one(done..states);
 }

@@ -22,7 +22,6 @@ pub(super) static MOMENT: Bound = Bound {
     unit: "kg m^2",
     help: "inertias are in kg m^2, about the centroid",
 };
-pub(super) static RATED: Bound = RATED_TORQUE;
 /// What a rated torque may be, wherever one is written.
 pub const RATED_TORQUE: Bound = Bound {
     range: 1e-6..=1e7,

@@ -50,7 +50,7 @@ pub(crate) static RATED: Key = Key::required(
     "The most that the joint's motor gives, either way",
     "`rated_torque = 100.0`",
 )
-.limits(&[Limit::Within(&bounds::RATED)])
+.limits(&[Limit::Within(&bounds::RATED_TORQUE)])
 .need(Need::Optional("there is no limit"));
 pub(crate) static LINK: Key = Key::required(
     "link",

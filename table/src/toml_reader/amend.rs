@@ -61,6 +61,8 @@ fn quoteless(value: &str) -> Option<Amendment> {
     })
 }
 
+const TYPESET_QUOTES: [char; 5] = ['\u{201c}', '\u{201d}', '\u{2018}', '\u{2019}', '\u{201e}'];
+
 /// Longer values are no slip of the pen, in bytes.
 const LONGEST: usize = 64;
 
@@ -101,12 +103,8 @@ pub(super) fn amend(text: &str) -> Option<Amendment> {
         let help = format!("write `{}`", text.replace('\u{2212}', "-"));
         return amendment("this is a typeset minus sign, not the character `-`", help);
     }
-    if text.contains(['\u{201c}', '\u{201d}', '\u{2018}', '\u{2019}', '\u{201e}']) {
-        let plain = text.replace(
-            ['\u{201c}', '\u{201d}', '\u{2018}', '\u{2019}', '\u{201e}'],
-            "\"",
-        );
-        let help = format!("write `{plain}`");
+    if text.contains(TYPESET_QUOTES) {
+        let help = format!("write `{}`", text.replace(TYPESET_QUOTES, "\""));
         return amendment("these are typeset quotes, not the character `\"`", help);
     }
     if let Some(numbers) = numbers(text) {

@@ -49,11 +49,7 @@ impl Bound {
 
     /// All `numbers`, if none is missing or out of bounds.
     pub fn admit_all(&self, numbers: &[Option<Located<f64>>], sink: &Sink) -> Option<Vec<f64>> {
-        let admitted = numbers
-            .iter()
-            .map(|number| self.admit(number.as_ref()?, sink));
-        // Each is looked at before the first fault ends the reading.
-        admitted.collect::<Vec<_>>().into_iter().collect()
+        all(numbers, |number| self.admit(number, sink))
     }
 }
 
@@ -70,10 +66,15 @@ impl Key {
 
     /// All `numbers`, if none is missing or out of the key's bounds.
     pub fn admit_all(&self, numbers: &[Option<Located<f64>>], sink: &Sink) -> Option<Vec<f64>> {
-        let admitted = numbers
-            .iter()
-            .map(|number| self.admit(number.as_ref()?, sink));
-        // Each is looked at before the first fault ends the reading.
-        admitted.collect::<Vec<_>>().into_iter().collect()
+        all(numbers, |number| self.admit(number, sink))
     }
+}
+
+/// All `numbers`, if none is missing or refused. Each is looked at before the first fault ends the reading.
+fn all(
+    numbers: &[Option<Located<f64>>],
+    admit: impl Fn(&Located<f64>) -> Option<f64>,
+) -> Option<Vec<f64>> {
+    let admitted = numbers.iter().map(|number| admit(number.as_ref()?));
+    admitted.collect::<Vec<_>>().into_iter().collect()
 }

@@ -19,7 +19,7 @@ pub use fields::Fields;
 pub use file::read_file;
 pub use file_kind::{ARM_TABLE, FileKind, SCENARIO};
 pub use key::{Choice, Key, Kind, Limit, Need, Section, Word};
-pub use reference::{example, reference};
+pub use reference::reference;
 pub use value::{Located, Value};
 
 use toml::de::DeTable;

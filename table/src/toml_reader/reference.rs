@@ -16,7 +16,7 @@ pub fn reference(introduction: &str, root: &'static Section) -> String {
 }
 
 /// A file in which every section is written out, in order.
-pub fn example(root: &'static Section) -> String {
+fn example(root: &'static Section) -> String {
     let sections = root.all();
     let examples = sections.iter().map(|section| section.example);
     let examples: Vec<_> = examples.filter(|example| !example.is_empty()).collect();
