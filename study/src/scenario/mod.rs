@@ -17,7 +17,7 @@ pub use experiment::{Experiment, Figure, FigureKind, Reference};
 pub use force::ToolForce;
 pub use format::reference;
 pub use motion::{Motion, Path as MotionPath, PlanError, PlannedMotion};
-pub use settings::{BrakeSettings, CampaignSettings, CaseCountError, SearchGrid};
+pub use settings::{AssessSettings, BrakeSettings, CampaignSettings, CaseCountError, SearchGrid};
 
 use std::fmt;
 use std::path::Path;
@@ -42,6 +42,7 @@ pub struct Scenario {
     brake: BrakeSettings,
     experiments: Vec<Experiment>,
     campaign: CampaignSettings,
+    assess: AssessSettings,
 }
 
 impl Scenario {
@@ -148,6 +149,11 @@ impl Scenario {
     /// The random variation of [`Scenario`] in a campaign.
     pub fn campaign(&self) -> CampaignSettings {
         self.campaign
+    }
+
+    /// How laws are judged over failures for which they were not tuned.
+    pub fn assess(&self) -> &AssessSettings {
+        &self.assess
     }
 
     /// The same scenario with so many cases in its campaign.

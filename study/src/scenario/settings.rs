@@ -89,6 +89,52 @@ impl CampaignSettings {
     }
 }
 
+/// How laws are judged over failures for which they were not tuned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AssessSettings {
+    pub(super) failure_times: u64,
+    pub(super) locks_at_once: u64,
+    pub(super) force_budgets: Vec<f64>,
+    pub(super) rate_limit: f64,
+    pub(super) ramp: f64,
+    pub(super) rated_torque: Option<Option<Vec<f64>>>,
+}
+
+impl AssessSettings {
+    /// The most joints that lock together.
+    pub const MOST_LOCKS_AT_ONCE: u64 = 2;
+
+    /// How many failure times, evenly spread over the motion without its ends; at least 1.
+    pub fn failure_times(&self) -> u64 {
+        self.failure_times
+    }
+
+    /// The most joints that lock together: 1 or 2.
+    pub fn locks_at_once(&self) -> u64 {
+        self.locks_at_once
+    }
+
+    /// How far the robust law may bend the static tool force, N (with the moments' N·m, if the task has any); ascending, at least one.
+    pub fn force_budgets(&self) -> &[f64] {
+        &self.force_budgets
+    }
+
+    /// The fastest that the robust law's compensation may change, N·m/s (N/s).
+    pub fn rate_limit(&self) -> f64 {
+        self.rate_limit
+    }
+
+    /// How long a recourse takes to fade out, s; above 0.
+    pub fn ramp(&self) -> f64 {
+        self.ramp
+    }
+
+    /// The rated torques to keep, N·m (N), `Some(None)` for no limit; `None` where those of the first experiment count.
+    pub fn rated_torque(&self) -> Option<Option<&[f64]>> {
+        self.rated_torque.as_ref().map(Option::as_deref)
+    }
+}
+
 /// A campaign cannot have so many cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(

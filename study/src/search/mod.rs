@@ -13,14 +13,19 @@ mod coefficients;
 mod convex;
 mod interval;
 mod operation;
+mod recourse;
 mod stepwise;
 
 use ulna::control::compensation::Compensation;
 
 pub use coefficients::{CoefficientLaw, cancel_per_joint, equivalent_per_joint};
-pub use convex::{ForcePriority, FrontierPoint, Objective, frontier, least_impact, optimal};
+pub use convex::{
+    BestConstant, ForcePriority, FrontierPoint, Moment, Objective, RobustObjective, RobustOptions,
+    RobustPlan, RobustSample, best_constant, frontier, least_impact, optimal, robust,
+};
 pub use interval::{Interval, feasible_interval};
 pub use operation::{Assessment, OperatingPoint, Operation, OperationOptions};
+pub use recourse::nearest_torque;
 pub use stepwise::Stepwise;
 
 /// Why there is nothing to search, or nothing to find. Joints count from 0 in the fields and from 1 in the messages.

@@ -4,7 +4,7 @@ use nalgebra::{SVector, Vector6};
 
 use super::SearchError;
 use ulna::Arm;
-use ulna::control::compensation::{Compensation, Limits, Projector, TaskPose};
+use ulna::control::compensation::{Compensation, Law, Limits, Projector, TaskPose};
 use ulna::control::failure::{Failure, LockedJoints};
 use ulna::control::trajectory::Trajectory;
 
@@ -74,6 +74,10 @@ pub struct Assessment<const N: usize> {
     pub peak_torque: SVector<f64, N>,
     /// The largest |U_i| over the whole operation, N·m (N).
     pub peak_compensation: SVector<f64, N>,
+    /// The least `τ_rated − |τ_i|` over the whole operation, brakes excepted, N·m (N); infinite without limits.
+    pub least_margin: f64,
+    /// The largest |dU_i/dt| between two samples, the lock's own step excepted, N·m/s (N/s).
+    pub fastest_change: f64,
 }
 
 impl<const N: usize> Assessment<N> {
@@ -193,6 +197,20 @@ impl<const N: usize> Operation<N> {
 
     /// What `compensation` does to the operation, cut at rated torques as a control cycle cuts it.
     pub fn assess(&self, compensation: &Compensation<N>) -> Assessment<N> {
+        self.assess_torque(compensation.law(), |sample| {
+            sample.pose.compensation(compensation)
+        })
+    }
+
+    /// What the compensation `wanted` does at each sample, N·m (N), cut as a control cycle cuts that of `law`.
+    pub fn assess_torque(
+        &self,
+        law: Law,
+        wanted: impl Fn(&OperatingPoint<N>) -> SVector<f64, N>,
+    ) -> Assessment<N> {
+        let mut least_margin = f64::INFINITY;
+        let mut fastest_change = 0.0_f64;
+        let mut last: Option<(&OperatingPoint<N>, SVector<f64, N>)> = None;
         let mut torques = Vec::with_capacity(self.samples.len());
         let mut max_force_error = 0.0_f64;
         let mut peak_torque = SVector::<f64, N>::zeros();
@@ -202,9 +220,20 @@ impl<const N: usize> Operation<N> {
                 rated_torque: self.rated_torque,
                 locked: sample.locked,
             };
-            let wanted = sample.pose.compensation(compensation);
-            let (torque, _) = limits.cut(&sample.planned, &wanted, compensation.law());
+            let (torque, _) = limits.cut(&sample.planned, &wanted(sample), law);
             let acting = torque - sample.planned;
+            for joint in sample.locked.healthy() {
+                least_margin = least_margin.min(self.rated_torque[joint] - torque[joint].abs());
+            }
+            // The lock itself is no change in time.
+            if let Some((last, before)) = last
+                && last.locked == sample.locked
+                && sample.time > last.time
+            {
+                let change = (acting - before).amax() / (sample.time - last.time);
+                fastest_change = fastest_change.max(change);
+            }
+            last = Some((sample, acting));
             let force_error = sample.pose.null_space.static_wrench(&acting).norm();
             max_force_error = max_force_error.max(force_error);
             peak_torque = peak_torque.sup(&sample.locked.without(&torque).abs());
@@ -227,6 +256,8 @@ impl<const N: usize> Operation<N> {
             max_force_error,
             peak_torque,
             peak_compensation,
+            least_margin,
+            fastest_change,
         }
     }
 }

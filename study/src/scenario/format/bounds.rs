@@ -79,6 +79,22 @@ pub(super) static FORCE_SPREAD: Bound = Bound {
     help: "a spread is the largest deviation, not negative",
 };
 
+pub(super) static FORCE_BUDGET: Bound = Bound {
+    range: 0.0..=1e7,
+    unit: "N (N m)",
+    help: "a budget is the largest norm of the force error, not negative",
+};
+pub(super) static COMPENSATION_RATE: Bound = Bound {
+    range: 1e-6..=1e9,
+    unit: "N m/s (N/s)",
+    help: "a rate is positive; write 1e9 if there is no limit",
+};
+pub(super) static RAMP: Bound = Bound {
+    range: 1e-3..=1e5,
+    unit: "s",
+    help: "a ramp takes some time, for example 1.0 s",
+};
+
 /// The most control cycles in a motion: a search keeps each in memory, with all that a compensation is made of,
 /// and as many searches run at once as there are cores. For 7 joints that is 8 KB for each cycle and core.
 pub(in crate::scenario) const MAX_CYCLES: f64 = 1e4;
@@ -93,3 +109,7 @@ pub(in crate::scenario) const MAX_FIGURES: usize = 100;
 pub(in crate::scenario) const MAX_CASES: u64 = 1_000_000;
 /// The most failure times of a campaign: each is a column of the figure.
 pub(in crate::scenario) const MAX_FAILURE_TIMES: u64 = 1000;
+/// The most failure times that laws are assessed at: each is looked at with every lock, and so are all pairs of joints.
+pub(in crate::scenario) const MAX_ASSESSED_TIMES: u64 = 2000;
+/// The most force budgets, each of which is a law with a figure of its own.
+pub(in crate::scenario) const MAX_BUDGETS: usize = 8;

@@ -63,13 +63,15 @@ pub(in crate::scenario) static MOMENT: Key = Key::required(
 )
 .limits(FORCES)
 .need(Need::Default(|| "[0.0, 0.0, 0.0]".to_owned()));
+/// How torque limits are written.
+pub(super) const RATED_TORQUES: Kind = Kind::OneOf(&[
+    Kind::Words(RatedWord::listed),
+    Kind::Number,
+    Kind::List(&Kind::Number, "one for each joint"),
+]);
 pub(in crate::scenario) static RATED_TORQUE: Key = Key::required(
     "rated_torque",
-    Kind::OneOf(&[
-        Kind::Words(RatedWord::listed),
-        Kind::Number,
-        Kind::List(&Kind::Number, "one for each joint"),
-    ]),
+    RATED_TORQUES,
     "The torque limits to keep; one number counts for all joints",
     "`rated_torque = \"table\"` or `rated_torque = 300.0`",
 )

@@ -1,5 +1,6 @@
 //! The format of a scenario: every key with its kind, its bounds, its default and its meaning.
 
+pub(super) mod assess;
 pub(super) mod bounds;
 pub(super) mod campaign;
 pub(super) mod experiment;
@@ -19,7 +20,8 @@ const INTRODUCTION: &str = "
 # A scenario
 
 A TOML file with one motion of one arm, the joints that lock, and what is tried against the impact. SI units; angles in the unit
-that `angle_unit` names. `ulna reproduce FILE` makes its experiments, `ulna campaign FILE` varies it at random.
+that `angle_unit` names. `ulna reproduce FILE` makes its experiments, `ulna campaign FILE` varies it at random,
+`ulna assess FILE` judges every law over failures for which it was not tuned.
 ";
 
 /// The reference of the format, Markdown.
@@ -44,6 +46,7 @@ pub(super) static SCENARIO: Section = Section {
         &BRAKE,
         &EXPERIMENTS,
         &CAMPAIGN,
+        &ASSESS,
     ],
 };
 
@@ -108,6 +111,14 @@ pub(super) static CAMPAIGN: Key = Key::required(
     Kind::Table(&campaign::CAMPAIGN),
     "How `ulna campaign` varies the scenario",
     "`[campaign]` and below it `cases = 10_000`",
+)
+.need(Need::Optional("its keys have their defaults"));
+
+pub(super) static ASSESS: Key = Key::required(
+    "assess",
+    Kind::Table(&assess::ASSESS),
+    "How `ulna assess` judges every law",
+    "`[assess]` and below it `failure_times = 79`",
 )
 .need(Need::Optional("its keys have their defaults"));
 

@@ -116,7 +116,7 @@ fn polynomials(value: Value<'_>) -> Option<Located<Vec<Option<Numbers>>>> {
     Some(place.map(|()| items.into_iter().map(read).collect()))
 }
 
-fn read_rated_torque(value: Value<'_>) -> Option<RatedTable> {
+pub(super) fn read_rated_torque(value: Value<'_>) -> Option<RatedTable> {
     if value.is_string() {
         Some(match value.choice()?.value {
             RatedWord::None => RatedTable::None,

@@ -6,16 +6,16 @@
 mod experiment;
 mod motion;
 
-use super::format::{self, campaign};
+use super::format::{self, assess, campaign};
 use crate::simulation::BrakeProfile;
 use ulna_table::AngleUnit;
 use ulna_table::diagnostics::Sink;
 use ulna_table::toml_reader::{self, Fields, Located, SCENARIO, Value};
 
-use experiment::read_experiments;
 pub(super) use experiment::{
     ExperimentTable, FigureTable, FigureWord, RatedTable, RatedWord, ReferenceTable,
 };
+use experiment::{read_experiments, read_rated_torque};
 use motion::read_motion;
 pub(super) use motion::{Angles, MotionKind, MotionTable, PathTable};
 
@@ -39,6 +39,7 @@ pub(super) struct ScenarioTable {
     pub(super) brake: BrakeTable,
     pub(super) experiments: Option<Vec<ExperimentTable>>,
     pub(super) campaign: CampaignTable,
+    pub(super) assess: AssessTable,
 }
 
 /// `[failure]`
@@ -69,6 +70,17 @@ pub(super) struct CampaignTable {
     pub(super) start_spread: Number,
     pub(super) goal_spread: Number,
     pub(super) force_spread: Number,
+}
+
+/// `[assess]`; all keys are optional.
+#[derive(Default)]
+pub(super) struct AssessTable {
+    pub(super) failure_times: Option<Located<u64>>,
+    pub(super) locks_at_once: Option<Located<u64>>,
+    pub(super) force_budgets: List,
+    pub(super) rate_limit: Number,
+    pub(super) ramp: Number,
+    pub(super) rated_torque: Option<RatedTable>,
 }
 
 impl ScenarioTable {
@@ -111,6 +123,10 @@ impl ScenarioTable {
                 .value(&format::CAMPAIGN)
                 .and_then(|value| value.table("[campaign]", read_campaign))
                 .unwrap_or_default(),
+            assess: fields
+                .value(&format::ASSESS)
+                .and_then(|value| value.table("[assess]", read_assess))
+                .unwrap_or_default(),
         })
     }
 }
@@ -134,6 +150,20 @@ fn read_campaign(fields: &mut Fields<'_>) -> CampaignTable {
         start_spread: number(fields.value(&campaign::START_SPREAD)),
         goal_spread: number(fields.value(&campaign::GOAL_SPREAD)),
         force_spread: number(fields.value(&campaign::FORCE_SPREAD)),
+    }
+}
+
+fn read_assess(fields: &mut Fields<'_>) -> AssessTable {
+    let mut whole = |key| fields.value(key).and_then(Value::whole_number);
+    AssessTable {
+        failure_times: whole(&assess::FAILURE_TIMES),
+        locks_at_once: whole(&assess::LOCKS_AT_ONCE),
+        force_budgets: list(fields.value(&assess::FORCE_BUDGETS)),
+        rate_limit: number(fields.value(&assess::RATE_LIMIT)),
+        ramp: number(fields.value(&assess::RAMP_TIME)),
+        rated_torque: fields
+            .value(&assess::ASSESSED_RATED_TORQUE)
+            .and_then(read_rated_torque),
     }
 }
 

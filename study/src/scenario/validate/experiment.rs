@@ -79,21 +79,8 @@ impl Reader<'_> {
             None => Some(none),
             moment => self.polynomials(moment, &format::MOMENT),
         };
-        let rated_torque = table.rated_torque.as_ref().map(|rated| match rated {
-            RatedTable::None => Some(None),
-            RatedTable::OfArm => {
-                let of_arm = |joint: &Joint| joint.rated_torque.unwrap_or(f64::INFINITY);
-                Some(Some(self.joints?.iter().map(of_arm).collect()))
-            }
-            RatedTable::Common(rated) => {
-                let rated = format::RATED_TORQUE.admit(rated, self.sink)?;
-                Some(Some(vec![rated; self.joint_count?]))
-            }
-            RatedTable::Each(list) => {
-                let numbers = self.one_each(list)?;
-                Some(Some(format::RATED_TORQUE.admit_all(numbers, self.sink)?))
-            }
-        });
+        let rated_torque = table.rated_torque.as_ref();
+        let rated_torque = rated_torque.map(|rated| self.rated_torque(rated));
         let references: Vec<_> = table
             .references
             .iter()
@@ -113,6 +100,25 @@ impl Reader<'_> {
             references: references.into_iter().collect::<Option<_>>()?,
             figures: figures.into_iter().collect::<Option<_>>()?,
         })
+    }
+
+    /// `Some(None)` for no limit.
+    pub(super) fn rated_torque(&self, rated: &RatedTable) -> Option<Option<Vec<f64>>> {
+        match rated {
+            RatedTable::None => Some(None),
+            RatedTable::OfArm => {
+                let of_arm = |joint: &Joint| joint.rated_torque.unwrap_or(f64::INFINITY);
+                Some(Some(self.joints?.iter().map(of_arm).collect()))
+            }
+            RatedTable::Common(rated) => {
+                let rated = format::RATED_TORQUE.admit(rated, self.sink)?;
+                Some(Some(vec![rated; self.joint_count?]))
+            }
+            RatedTable::Each(list) => {
+                let numbers = self.one_each(list)?;
+                Some(Some(format::RATED_TORQUE.admit_all(numbers, self.sink)?))
+            }
+        }
     }
 
     fn figure(&self, table: &FigureTable, times: Option<&[f64]>) -> Option<Figure> {

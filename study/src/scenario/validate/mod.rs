@@ -1,5 +1,6 @@
 //! [`ScenarioTable`] → [`Scenario`]: numbers of joints, units, bounds. The last stage that can fail on what the file says.
 
+mod assess;
 mod campaign;
 mod experiment;
 mod failure;
@@ -63,6 +64,7 @@ impl ScenarioTable {
             profile: self.brake.profile.unwrap_or_default(),
         });
         let campaign = reader.campaign(&self.campaign);
+        let assess = reader.assess(&self.assess);
         let (failed_joints, failure_times) = failure?;
         studies?;
         Some(Scenario {
@@ -76,6 +78,7 @@ impl ScenarioTable {
             brake: brake?,
             experiments: experiments?,
             campaign: campaign?,
+            assess: assess?,
             arm: arm?,
         })
     }
@@ -156,6 +159,28 @@ impl Reader<'_> {
             start: start?,
             step: step?,
         })
+    }
+
+    /// A count from 1 to `most`, or what it is if it is not there.
+    fn count(&self, number: &Option<Located<u64>>, default: u64, most: u64) -> Option<u64> {
+        let Some(number) = number else {
+            return Some(default);
+        };
+        if (1..=most).contains(&number.value) {
+            return Some(number.value);
+        }
+        let message = format!("{} is out of bounds", number.name);
+        let label = format!("must be within 1 to {most}");
+        self.refuse(&number.span, message, label, "write a count");
+        None
+    }
+
+    /// A number within its bounds, or what it is if it is not there.
+    fn number_or(&self, number: &Number, default: f64, key: &Key) -> Option<f64> {
+        match number {
+            Some(_) => self.bounded(number, key),
+            None => Some(default),
+        }
     }
 
     fn bounded(&self, number: &Number, key: &Key) -> Option<f64> {

@@ -37,13 +37,15 @@ impl Program {
         }
     }
 
-    /// The rows `b − A x`, for the cone that is pushed next.
-    fn constrain(&mut self, a: &DMatrix<f64>, b: &[f64]) {
+    /// The rows `b − Σ A x`, for the cone that is pushed next: each A acts on the variables from a first one on.
+    fn constrain(&mut self, blocks: &[(usize, &DMatrix<f64>)], b: &[f64]) {
         let start = self.bounds.len();
-        for (column, values) in a.column_iter().enumerate() {
-            for (row, value) in values.iter().enumerate() {
-                if *value != 0.0 {
-                    self.rows.push((start + row, column, *value));
+        for (first, a) in blocks {
+            for (column, values) in a.column_iter().enumerate() {
+                for (row, value) in values.iter().enumerate() {
+                    if *value != 0.0 {
+                        self.rows.push((start + row, first + column, *value));
+                    }
                 }
             }
         }
@@ -52,7 +54,7 @@ impl Program {
 
     /// `A x = b`.
     pub(super) fn equal(&mut self, a: &DMatrix<f64>, b: &[f64]) {
-        self.constrain(a, b);
+        self.constrain(&[(0, a)], b);
         self.cones.push(SupportedConeT::ZeroConeT(b.len()));
     }
 
@@ -61,7 +63,7 @@ impl Program {
         if b.is_empty() {
             return;
         }
-        self.constrain(a, b);
+        self.constrain(&[(0, a)], b);
         self.cones.push(SupportedConeT::NonnegativeConeT(b.len()));
     }
 
@@ -71,7 +73,7 @@ impl Program {
         cone.neg_mut();
         let mut b = vec![0.0; a.nrows() + 1];
         b[0] = radius;
-        self.constrain(&cone, &b);
+        self.constrain(&[(0, &cone)], &b);
         self.cones.push(SupportedConeT::SecondOrderConeT(b.len()));
     }
 
@@ -83,9 +85,47 @@ impl Program {
             .resize_horizontally(bound + 1, 0.0);
         cone[(0, bound)] = 1.0;
         cone.neg_mut();
-        self.constrain(&cone, &vec![0.0; a.nrows() + 1]);
+        self.constrain(&[(0, &cone)], &vec![0.0; a.nrows() + 1]);
         self.cones
             .push(SupportedConeT::SecondOrderConeT(a.nrows() + 1));
+    }
+
+    /// `A x ≤ b`, A on the variables from `first` on.
+    pub(super) fn at_most_from(&mut self, first: usize, a: &DMatrix<f64>, b: &[f64]) {
+        self.constrain(&[(first, a)], b);
+        self.cones.push(SupportedConeT::NonnegativeConeT(b.len()));
+    }
+
+    /// `−b ≤ Σ A x ≤ b`.
+    pub(super) fn within(&mut self, blocks: &[(usize, &DMatrix<f64>)], b: &[f64]) {
+        let negative: Vec<_> = blocks.iter().map(|(first, a)| (*first, -*a)).collect();
+        let negative: Vec<_> = negative.iter().map(|(first, a)| (*first, a)).collect();
+        self.constrain(blocks, b);
+        self.constrain(&negative, b);
+        self.cones
+            .push(SupportedConeT::NonnegativeConeT(2 * b.len()));
+    }
+
+    /// `‖c + Σ A x‖ ≤ radius + slope x_bound`.
+    pub(super) fn cone(
+        &mut self,
+        blocks: &[(usize, &DMatrix<f64>)],
+        c: &[f64],
+        radius: f64,
+        bound: Option<(usize, f64)>,
+    ) {
+        let below = |a: &DMatrix<f64>| -a.clone().insert_row(0, 0.0);
+        let mut cone: Vec<_> = blocks.iter().map(|(first, a)| (*first, below(a))).collect();
+        if let Some((variable, slope)) = bound {
+            let mut head = DMatrix::zeros(c.len() + 1, 1);
+            head[(0, 0)] = -slope;
+            cone.push((variable, head));
+        }
+        let cone: Vec<_> = cone.iter().map(|(first, a)| (*first, a)).collect();
+        let mut b = vec![radius];
+        b.extend_from_slice(c);
+        self.constrain(&cone, &b);
+        self.cones.push(SupportedConeT::SecondOrderConeT(b.len()));
     }
 
     /// Solves it; `None` if it has no admissible point.

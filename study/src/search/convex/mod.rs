@@ -5,18 +5,22 @@
 //! which also picks the least x; otherwise by an interior-point method with a duality gap.
 
 mod conic;
+mod constant;
 mod least;
 mod limits;
 mod optimal;
 mod projected;
 mod pseudo_inverse;
+mod robust;
 
 use nalgebra::{DVector, SVector};
 
 use super::{Operation, Solution};
 use conic::Minimum;
+pub use constant::{BestConstant, best_constant};
 pub use optimal::{ForcePriority, FrontierPoint, frontier, optimal};
 pub use projected::{Objective, least_impact};
+pub use robust::{Moment, RobustObjective, RobustOptions, RobustPlan, RobustSample, robust};
 use ulna::control::compensation::Compensation;
 
 /// The healthy joints' entries of `vector`.

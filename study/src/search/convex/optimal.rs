@@ -168,19 +168,19 @@ impl Problem {
 }
 
 /// `U = P z + Jᵀ f` at one sample as a map of few variables: P's range and the task's rows of f.
-struct FreeMap {
+pub(super) struct FreeMap {
     /// U, N × variables.
-    torque: DMatrix<f64>,
+    pub(super) torque: DMatrix<f64>,
     /// h, task rows × variables.
-    force: DMatrix<f64>,
+    pub(super) force: DMatrix<f64>,
     /// z of each of the first variables, N × rank of P.
-    null: DMatrix<f64>,
+    pub(super) null: DMatrix<f64>,
     /// The rows of f of the other variables.
     rows: Vec<usize>,
 }
 
 impl FreeMap {
-    fn new<const N: usize>(sample: &OperatingPoint<N>) -> Self {
+    pub(super) fn new<const N: usize>(sample: &OperatingPoint<N>) -> Self {
         let pose = &sample.pose;
         let unit = |i: usize| SVector::<f64, N>::from_fn(|j, _| f64::from(u8::from(i == j)));
         let mut projector = DMatrix::zeros(N, N);
@@ -210,7 +210,18 @@ impl FreeMap {
         }
     }
 
-    fn parameters<const N: usize>(&self, x: &[f64]) -> FreeTorque<N> {
+    /// Without the variables of f, if the force is to be `exact`.
+    pub(super) fn kept(mut self, exact: bool) -> Self {
+        if exact {
+            let null = self.null.ncols();
+            self.torque = self.torque.columns(0, null).into_owned();
+            self.force = self.force.columns(0, null).into_owned();
+            self.rows.clear();
+        }
+        self
+    }
+
+    pub(super) fn parameters<const N: usize>(&self, x: &[f64]) -> FreeTorque<N> {
         let (null, forces) = x.split_at(self.null.ncols());
         let torque = &self.null * DVector::from_column_slice(null);
         let mut wrench = Vector6::zeros();

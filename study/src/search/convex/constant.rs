@@ -1,0 +1,90 @@
+//! The constant coefficients that are best at all failures at once: what Eq. 16 and 20 can do without knowing what fails when.
+
+use std::time::Instant;
+
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+
+use super::conic::Program;
+use super::robust::Moment;
+use crate::search::coefficients::{CoefficientLaw, NO_SAY};
+use crate::search::{SearchError, SolveStatus};
+
+/// Constant coefficients, and the worst that they leave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BestConstant<const N: usize> {
+    /// The diagonal of k_d.
+    pub coefficients: SVector<f64, N>,
+    /// The largest norm of the healthy joints' steps over all locks at all times, N·m (N): no other constants leave less
+    /// by more than [`gap`](Self::gap).
+    pub worst: f64,
+    /// How the search ended.
+    pub status: SolveStatus,
+    /// Primal minus dual objective, N·m (N).
+    pub gap: f64,
+    /// How long it took, s.
+    pub seconds: f64,
+}
+
+/// `min over k of max over all locks of all moments of ‖step + R k‖` over the healthy joints, a second-order cone program.
+/// Rated torques are left to the control cycle.
+///
+/// # Errors
+/// When there is nothing to choose, or the solver stops without an answer.
+pub fn best_constant<const N: usize>(
+    moments: &[Moment<N>],
+    law: CoefficientLaw,
+) -> Result<BestConstant<N>, SearchError> {
+    let clock = Instant::now();
+    let mut locks = Vec::new();
+    let mut size = SVector::<f64, N>::zeros();
+    let mut strongest = 0.0_f64;
+    for moment in moments {
+        let before = law.map(&moment.before);
+        strongest = strongest.max(moment.before.pose.gradient.amax());
+        for after in &moment.after {
+            let map: SMatrix<f64, N, N> = law.map(after) - before;
+            size = size.sup(&column_sizes(&map));
+            let step = after
+                .locked
+                .without(&(after.planned - moment.before.planned));
+            locks.push((after.locked, map, step));
+        }
+    }
+    // In units in which each coefficient adds at most 1 N·m to a step.
+    let strongest = strongest.max(size.amax());
+    let active: Vec<usize> = (0..N).filter(|i| size[*i] > NO_SAY * strongest).collect();
+    let variables = active.len();
+    let mut program = Program::new(variables + 1);
+    program.linear[variables] = 1.0;
+    for (locked, map, step) in &locks {
+        let healthy: Vec<usize> = locked.healthy().collect();
+        let rows = DMatrix::from_fn(healthy.len(), variables, |row, column| {
+            map[(healthy[row], active[column])] / size[active[column]]
+        });
+        let step: Vec<f64> = healthy.iter().map(|joint| step[*joint]).collect();
+        program.cone(&[(0, &rows)], &step, 0.0, Some((variables, 1.0)));
+    }
+    let solved = program.solve()?;
+    let minimum = solved.ok_or(SearchError::NotSolved("infeasible without limits"))?;
+    let mut coefficients = SVector::zeros();
+    for (joint, x) in active.iter().zip(&minimum.x) {
+        coefficients[*joint] = x / size[*joint];
+    }
+    Ok(BestConstant {
+        coefficients,
+        worst: DVector::from_vec(
+            locks
+                .iter()
+                .map(|(locked, map, step)| locked.without(&(step + map * coefficients)).norm())
+                .collect(),
+        )
+        .amax(),
+        status: minimum.status,
+        gap: minimum.gap,
+        seconds: clock.elapsed().as_secs_f64(),
+    })
+}
+
+fn column_sizes<const N: usize>(map: &SMatrix<f64, N, N>) -> SVector<f64, N> {
+    SVector::from_fn(|i, _| map.column(i).amax())
+}
