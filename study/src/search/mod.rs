@@ -11,6 +11,7 @@
 
 mod coefficients;
 mod convex;
+mod field;
 mod interval;
 mod operation;
 mod stepwise;
@@ -19,6 +20,7 @@ use ulna::control::compensation::Compensation;
 
 pub use coefficients::{CoefficientLaw, cancel_per_joint, equivalent_per_joint};
 pub use convex::{ForcePriority, FrontierPoint, Objective, frontier, least_impact, optimal};
+pub use field::{Field, kinematic_manipulability_gradient};
 pub use interval::{Interval, feasible_interval};
 pub use operation::{Assessment, OperatingPoint, Operation, OperationOptions};
 pub use stepwise::Stepwise;
