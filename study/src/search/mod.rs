@@ -11,6 +11,7 @@
 
 mod coefficients;
 mod convex;
+mod field;
 mod interval;
 mod operation;
 mod recourse;
@@ -23,6 +24,7 @@ pub use convex::{
     BestConstant, ForcePriority, FrontierPoint, Moment, Objective, RobustObjective, RobustOptions,
     RobustPlan, RobustSample, best_constant, frontier, least_impact, optimal, robust,
 };
+pub use field::{Field, kinematic_manipulability_gradient};
 pub use interval::{Interval, feasible_interval};
 pub use operation::{Assessment, OperatingPoint, Operation, OperationOptions};
 pub use recourse::nearest_torque;

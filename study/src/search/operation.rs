@@ -2,7 +2,7 @@
 
 use nalgebra::{SVector, Vector6};
 
-use super::SearchError;
+use super::{Field, SearchError};
 use ulna::Arm;
 use ulna::control::compensation::{Compensation, Law, Limits, Projector, TaskPose};
 use ulna::control::failure::{Failure, LockedJoints};
@@ -17,17 +17,20 @@ pub struct OperationOptions<const N: usize> {
     pub control_period: f64,
     /// The projector of every law.
     pub projector: Projector,
+    /// What stands in the place of ∇w_D in Eq. 16 and 20.
+    pub field: Field,
     /// Rated torques, N·m (N); infinite where there is no limit.
     pub rated_torque: SVector<f64, N>,
 }
 
 impl<const N: usize> Default for OperationOptions<N> {
-    /// Samples every 50 ms, an instant lock, the static projector, no limits.
+    /// Samples every 50 ms, an instant lock, the static projector, ∇w_D, no limits.
     fn default() -> Self {
         Self {
             sample_period: 0.05,
             control_period: 0.0,
             projector: Projector::Static,
+            field: Field::default(),
             rated_torque: SVector::repeat(f64::INFINITY),
         }
     }
@@ -127,7 +130,7 @@ impl<const N: usize> Operation<N> {
             } else {
                 failure.state(trajectory, time)
             };
-            let pose = TaskPose::new(arm, &state.q, locked, options.projector);
+            let pose = options.field.pose(arm, &state.q, locked, options.projector);
             let planned = arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
                 + pose.jacobian.tr_mul(&wrench(time));
             if !planned.iter().all(|torque| torque.is_finite()) {

@@ -3,6 +3,7 @@
 mod arms;
 mod compensation;
 mod failure;
+mod field;
 mod limits;
 mod optimal;
 mod search;
