@@ -3,8 +3,10 @@
 //! Exit codes: 0, or 1 for what is wrong with the input or with what was checked, or 2 for a wrong command line.
 
 mod arms;
+mod assess;
 mod campaign;
 mod check;
+mod columns;
 mod completions;
 mod console;
 mod cost;
@@ -44,6 +46,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Reproduce(reproduce::Arguments),
+    Assess(assess::Arguments),
     Campaign(campaign::Arguments),
     Check(check::Arguments),
     Generate(generate::Arguments),
@@ -67,6 +70,7 @@ impl Command {
     fn run(self, out: &mut dyn Write) -> anyhow::Result<Verdict> {
         match self {
             Self::Reproduce(arguments) => reproduce::run(&arguments, out),
+            Self::Assess(arguments) => assess::run(&arguments, out),
             Self::Campaign(arguments) => campaign::run(&arguments, out),
             Self::Check(arguments) => check::run(&arguments, out),
             Self::Generate(arguments) => generate::run(&arguments, out),

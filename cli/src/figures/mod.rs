@@ -4,6 +4,7 @@ mod chart;
 mod heat_map;
 mod impact;
 mod law;
+mod ratio_map;
 mod stroke;
 mod style;
 mod torque;
@@ -19,6 +20,7 @@ use plotters::style::{FontStyle, WHITE};
 
 pub(crate) use heat_map::HeatMap;
 pub(crate) use impact::Impacts;
+pub(crate) use ratio_map::RatioMaps;
 use style::Pen;
 pub(crate) use torque::Torques;
 pub(crate) use tradeoff::Tradeoffs;

@@ -5,7 +5,7 @@ mod drawings;
 mod page;
 mod results;
 mod table;
-mod words;
+pub(crate) mod words;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use clap::Args;
 use rayon::prelude::*;
 use ulna_study::Scenario;
 use ulna_study::experiment::{AnyArm, ExperimentError, ExperimentRunner, Study, Truth};
-use ulna_study::scenario::Experiment;
+use ulna_study::scenario::{Experiment, ScenarioErrors};
 
 use crate::arms::{ForArm, GENERATED, with_arm};
 use crate::output::{self, Files};
@@ -22,7 +22,7 @@ use crate::{Verdict, console};
 
 /// The scenario that is repeated when none is named; compiled in, so that the program needs no repository.
 const PAPER_LIKE: &str = include_str!("../../scenarios/paper_like.toml");
-const OUTPUT: &str = "out";
+pub(crate) const OUTPUT: &str = "out";
 /// What was found, in words.
 const PAGE: &str = "README.md";
 
@@ -49,15 +49,7 @@ impl Default for Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
-    let scenario = match &arguments.scenario {
-        Some(path) => Scenario::load(path, GENERATED)?,
-        None => Scenario::parse(
-            PAPER_LIKE,
-            "scenarios/paper_like.toml",
-            Path::new("scenarios"),
-            GENERATED,
-        )?,
-    };
+    let scenario = scenario(arguments.scenario.as_deref())?;
     output::check_folder(&arguments.output)?;
     let findings = with_arm(scenario.arm(), Findings::of(&scenario))??;
     table::write(&scenario, &findings, out)?;
@@ -73,6 +65,19 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         arguments.output.display()
     ));
     Ok(Verdict::Pass)
+}
+
+/// The scenario at `path`, or the paper's.
+pub(crate) fn scenario(path: Option<&Path>) -> Result<Scenario, ScenarioErrors> {
+    match path {
+        Some(path) => Scenario::load(path, GENERATED),
+        None => Scenario::parse(
+            PAPER_LIKE,
+            "scenarios/paper_like.toml",
+            Path::new("scenarios"),
+            GENERATED,
+        ),
+    }
 }
 
 /// What came of a scenario.

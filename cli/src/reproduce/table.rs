@@ -2,13 +2,13 @@
 
 use std::io::{self, Write};
 
-use comfy_table::presets;
-use comfy_table::{CellAlignment, Table};
+use comfy_table::Table;
 use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
 use ulna_study::scenario::{Experiment, Reference, Scenario};
 
 use super::Findings;
 use super::words::{name, seconds, significant, solve_status, what_locks};
+use crate::columns::plain;
 
 /// Columns of a table of impacts, one for each method.
 const METHODS: [(SearchMethod, &str); 4] = [
@@ -284,15 +284,4 @@ fn convergence(truths: &[Truth]) -> String {
         }
     }
     plain(table, &[])
-}
-
-/// Without lines; the columns `left` to the left, numbers to the right.
-fn plain(mut table: Table, left: &[usize]) -> String {
-    table.load_style(presets::NOTHING);
-    for (index, column) in table.column_iter_mut().enumerate() {
-        if !left.contains(&index) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    table.trim_fmt()
 }

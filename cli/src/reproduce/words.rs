@@ -6,7 +6,7 @@ use ulna_study::experiment::{Case, SearchMethod};
 use ulna_study::search::SolveStatus;
 
 /// "joint 2", "joints 1, 2 and 4" or "no joint": `joints` count from 0, names from 1.
-pub(super) fn joints_named(joints: &[usize]) -> String {
+pub(crate) fn joints_named(joints: &[usize]) -> String {
     let names: Vec<_> = joints.iter().map(|joint| (joint + 1).to_string()).collect();
     match names.split_last() {
         None => "no joint".to_owned(),
@@ -71,7 +71,7 @@ pub(super) fn seconds(time: f64) -> String {
 }
 
 /// Four digits; what is rounding is 0.
-pub(super) fn significant(value: f64) -> String {
+pub(crate) fn significant(value: f64) -> String {
     let size = value.abs();
     if size < 1e-9 {
         "0".to_owned()

@@ -45,6 +45,9 @@ pub enum ExperimentError {
         /// The joints of the arm.
         arm: usize,
     },
+    /// A scenario without experiments.
+    #[error("the scenario has no experiment")]
+    NoExperiment,
     /// The operation cannot be looked at.
     #[error(transparent)]
     Operation(#[from] SearchError),
@@ -65,13 +68,20 @@ pub enum ExperimentError {
 pub type AnyArm<const N: usize> = dyn Arm<N> + Sync;
 
 /// The largest time between two knots of a tool path, s.
-const KNOT_PERIOD: f64 = 0.02;
+pub(crate) const KNOT_PERIOD: f64 = 0.02;
 
 /// Infinite where there is no limit.
 fn rated_torque<const N: usize>(
     experiment: &Experiment,
 ) -> Result<SVector<f64, N>, ExperimentError> {
-    let Some(rated) = experiment.rated_torque() else {
+    rated_torque_of(experiment.rated_torque())
+}
+
+/// Infinite where there is no limit.
+pub(crate) fn rated_torque_of<const N: usize>(
+    rated: Option<&[f64]>,
+) -> Result<SVector<f64, N>, ExperimentError> {
+    let Some(rated) = rated else {
         return Ok(SVector::repeat(f64::INFINITY));
     };
     let rated = <[f64; N]>::try_from(rated).map_err(|_| ExperimentError::Joints {

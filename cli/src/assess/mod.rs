@@ -1,0 +1,120 @@
+//! `ulna assess`: every law over a grid of failures for which it was not tuned.
+
+mod page;
+mod results;
+mod table;
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use rayon::prelude::*;
+use ulna_study::Scenario;
+use ulna_study::assess::{AssessedCase, Assessment, FailureGrid, Tuning};
+use ulna_study::experiment::{AnyArm, ExperimentError};
+
+use crate::arms::{ForArm, with_arm};
+use crate::figures::{self, RatioMaps};
+use crate::output::{self, Files};
+use crate::{Verdict, console, reproduce};
+
+pub(crate) use table::title;
+
+const PAGE: &str = "assess.md";
+const MAPS: &str = "figures/assess";
+const PAIRS: &str = "figures/assess_pairs";
+
+/// Judge every law over failures for which it was not tuned: every joint and pair, at a grid of times
+#[derive(Args)]
+#[command(
+    after_help = "Example:\n  ulna assess scenarios/tool_path.toml --output target/assess\n\n\
+    Laws with coefficients are tuned once, for the scenario's joints at the failure time nearest to the middle of the motion,\n\
+    and then meet all others. [assess] of the scenario says how fine the grid is, and what the robust law may do."
+)]
+pub(crate) struct Arguments {
+    /// The scenario (TOML), whose first experiment counts; without it the paper's, as far as it can be repeated
+    scenario: Option<PathBuf>,
+    /// Where assess.json, the page and the figures go
+    #[arg(long, short, value_name = "DIR", default_value = reproduce::OUTPUT)]
+    output: PathBuf,
+}
+
+/// What was found, and of what.
+struct Findings<'s> {
+    scenario: &'s Scenario,
+    assessment: Assessment,
+    /// s.
+    times: Vec<f64>,
+    tuning: Tuning,
+    joints: usize,
+    /// Whether any torque limit was kept.
+    limited: bool,
+    seconds: f64,
+}
+
+pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
+    let scenario = reproduce::scenario(arguments.scenario.as_deref())?;
+    output::check_folder(&arguments.output)?;
+    let findings = with_arm(scenario.arm(), Work(&scenario))??;
+    table::write(&findings, out)?;
+    out.flush()?;
+    let mut files = Files::default();
+    files.add("assess.json", results::json(&findings)?);
+    files.add(PAGE, page::write(&findings));
+    let maps = RatioMaps::of_singles(&findings.assessment, &findings.times, &scenario);
+    files.add(format!("{MAPS}.svg"), figures::svg(&maps)?);
+    files.add(format!("{MAPS}.png"), figures::png(&maps)?);
+    if findings.has_pairs() {
+        let maps = RatioMaps::of_pairs(&findings.assessment, &findings.times, &scenario);
+        files.add(format!("{PAIRS}.svg"), figures::svg(&maps)?);
+        files.add(format!("{PAIRS}.png"), figures::png(&maps)?);
+    }
+    let written = files.write_to(&arguments.output)?;
+    console::note(&format!(
+        "wrote {} files to {} after {:.1} s; {PAGE} says what was found",
+        written.len(),
+        arguments.output.display(),
+        findings.seconds
+    ));
+    Ok(Verdict::Pass)
+}
+
+impl Findings<'_> {
+    fn has_pairs(&self) -> bool {
+        self.assessment.laws.iter().any(|law| law.pairs.is_some())
+    }
+}
+
+struct Work<'s>(&'s Scenario);
+
+impl<'s> ForArm for Work<'s> {
+    type Output = Result<Findings<'s>, ExperimentError>;
+
+    fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
+        let clock = Instant::now();
+        let grid = FailureGrid::new(arm, self.0)?;
+        let laws = grid.laws()?;
+        let cases = everything(grid.len(), &|failure| grid.cases(&laws, failure))?;
+        Ok(Findings {
+            scenario: self.0,
+            assessment: Assessment::new(&laws, cases),
+            times: grid.times().to_vec(),
+            tuning: grid.tuning(),
+            joints: N,
+            limited: grid.rated_torque().iter().any(|rated| rated.is_finite()),
+            seconds: clock.elapsed().as_secs_f64(),
+        })
+    }
+}
+
+/// What all laws make of one failure.
+type Cases = Result<Vec<Option<AssessedCase>>, ExperimentError>;
+
+/// Every failure, side by side: apart from the grid, so that this is not compiled for each number of joints.
+fn everything(
+    failures: usize,
+    cases: &(dyn Fn(usize) -> Cases + Sync),
+) -> Result<Vec<Vec<Option<AssessedCase>>>, ExperimentError> {
+    (0..failures).into_par_iter().map(cases).collect()
+}

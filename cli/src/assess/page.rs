@@ -1,0 +1,109 @@
+//! The page in words: what the numbers of this run say, and nothing else.
+
+use std::fmt::Write;
+
+use ulna_study::assess::{Law, LawAssessment};
+
+use super::table::{columns, failure, heading, title};
+use super::{Findings, MAPS, PAIRS};
+use crate::reproduce::words::significant;
+
+/// Markdown.
+pub(super) fn write(findings: &Findings<'_>) -> String {
+    let mut page = format!("# Every law over failures for which it was not tuned\n\n");
+    for sentence in heading(findings) {
+        let _ = writeln!(page, "{sentence}.");
+    }
+    page.push('\n');
+    for sentence in sentences(findings) {
+        let _ = writeln!(page, "- {sentence}");
+    }
+    page.push('\n');
+    let (head, rows) = columns(findings);
+    let _ = writeln!(page, "| {} |", head.join(" | "));
+    let _ = writeln!(page, "|{}", " --- |".repeat(head.len()));
+    for row in rows {
+        let _ = writeln!(page, "| {} |", row.join(" | "));
+    }
+    let _ = write!(
+        page,
+        "\nThe force error is the static one of Eq. 13, at worst over the whole motion, and at the lock; what the tool is to exert is not in it.\n\
+         The limit knows the joint and the time and keeps the static tool force: it is a bound, not a law.\n\n\
+         ![ratio of the step after to before, by law, joint and time]({MAPS}.png)\n"
+    );
+    if findings.has_pairs() {
+        let _ = write!(page, "\n![the same for pairs of joints]({PAIRS}.png)\n");
+    }
+    let notes = findings.assessment.laws.iter();
+    let notes: Vec<_> = notes.filter(|law| !law.note.is_empty()).collect();
+    if !notes.is_empty() {
+        page.push_str("\n## How the searches ended\n\n");
+        for law in notes {
+            let _ = writeln!(page, "- {}: {}", title(law), law.note);
+        }
+    }
+    page
+}
+
+/// What can be said of this run.
+fn sentences(findings: &Findings<'_>) -> Vec<String> {
+    let mut said = Vec::new();
+    let laws = &findings.assessment.laws;
+    if findings.assessment.largest == 0.0 {
+        said.push("No lock in this motion makes a step: there is nothing to suppress.".to_owned());
+        return said;
+    }
+    for law in laws.iter().filter(|law| law.tuned.is_some()) {
+        said.push(tuned(law));
+    }
+    let bounded = |law: &&LawAssessment| !matches!(law.law, Law::None | Law::Limit);
+    let harmless: Vec<_> = laws
+        .iter()
+        .filter(bounded)
+        .filter(|law| law.singles.share_worse == 0.0)
+        .map(title)
+        .collect();
+    match &harmless[..] {
+        [] => said.push("Every law makes some failure worse.".to_owned()),
+        names => said.push(format!(
+            "No failure of a single joint is made worse by: {}.",
+            names.join("; ")
+        )),
+    }
+    let best = laws
+        .iter()
+        .filter(bounded)
+        .min_by(|a, b| a.singles.worst_ratio.total_cmp(&b.singles.worst_ratio));
+    if let Some(best) = best {
+        let singles = &best.singles;
+        said.push(format!(
+            "The least worst ratio, {}, is that of {}; its force error is at most {} N.",
+            significant(singles.worst_ratio),
+            title(best),
+            significant(singles.worst_force_error)
+        ));
+    }
+    if let Some(limit) = laws.iter().find(|law| law.law == Law::Limit) {
+        said.push(format!(
+            "With the static tool force kept and the failure known, the median ratio is {} and the worst {}.",
+            significant(limit.singles.median_ratio),
+            significant(limit.singles.worst_ratio)
+        ));
+    }
+    said
+}
+
+fn tuned(law: &LawAssessment) -> String {
+    let singles = &law.singles;
+    let for_what = law.tuned.as_ref().map_or_else(String::new, failure);
+    let worst = singles.worst.as_ref().map_or_else(String::new, failure);
+    format!(
+        "{}, tuned for {for_what}, makes {:.0} % of the {} failures worse, at worst {worst} by a factor of {}; \
+         it bends the static tool force by up to {} N on the way.",
+        title(law),
+        100.0 * singles.share_worse,
+        singles.count,
+        significant(singles.worst_ratio),
+        significant(singles.worst_force_error)
+    )
+}

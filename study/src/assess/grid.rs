@@ -1,0 +1,340 @@
+//! [`FailureGrid`]: every lock at every failure time, and the laws that meet them.
+
+use std::fmt;
+
+use nalgebra::SVector;
+
+use super::case::AssessedCase;
+use super::law::{AssessedLaw, Law, Plan, Tactic, Tuning, torque};
+use crate::experiment::{AnyArm, ExperimentError, KNOT_PERIOD, rated_torque_of};
+use crate::scenario::{Experiment, PlannedMotion, Scenario};
+use crate::search::{
+    CoefficientLaw, Field, ForcePriority, Moment, Objective, Operation, OperationOptions,
+    RobustObjective, RobustOptions, SearchError, best_constant, cancel_per_joint, least_impact,
+    optimal, robust,
+};
+use ulna::control::compensation::{self, Compensation};
+use ulna::control::failure::{Failure, LockedJoints};
+
+/// The motion of a scenario's first experiment, with every joint (and every pair) locking at every failure time.
+#[derive(Clone)]
+pub struct FailureGrid<'a, const N: usize> {
+    arm: &'a AnyArm<N>,
+    scenario: &'a Scenario,
+    experiment: &'a Experiment,
+    motion: PlannedMotion<N>,
+    rated_torque: SVector<f64, N>,
+    /// Single joints first.
+    locks: Vec<LockedJoints<N>>,
+    times: Vec<f64>,
+}
+
+impl<const N: usize> fmt::Debug for FailureGrid<'_, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FailureGrid")
+            .field("scenario", self.scenario)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a, const N: usize> FailureGrid<'a, N> {
+    /// The largest time between two samples of a motion, s, where the grid is coarser.
+    const SAMPLE_PERIOD: f64 = 0.125;
+    /// Steps below this part of the largest of the grid need not become less for [`Law::Robust`].
+    const NO_STEP: f64 = 1e-4;
+
+    /// The grid of `scenario`, as its `[assess]` says.
+    ///
+    /// # Errors
+    /// When `arm` is not the scenario's, or cannot execute its motion.
+    pub fn new(arm: &'a AnyArm<N>, scenario: &'a Scenario) -> Result<Self, ExperimentError> {
+        let settings = scenario.assess();
+        let motion = scenario.motion().plan(arm, KNOT_PERIOD)?;
+        let experiment = scenario
+            .experiments()
+            .first()
+            .ok_or(ExperimentError::NoExperiment)?;
+        let rated = match settings.rated_torque() {
+            Some(rated) => rated,
+            None => experiment.rated_torque(),
+        };
+        let count = settings.failure_times();
+        let spacing = scenario.motion().duration() / (count + 1) as f64;
+        let singles = (0..N).filter_map(|joint| LockedJoints::new(&[joint]));
+        let mut locks: Vec<_> = singles.collect();
+        // Something must be left to move.
+        if settings.locks_at_once() > 1 && N > 2 {
+            let pairs = (0..N).flat_map(|a| (a + 1..N).map(move |b| [a, b]));
+            locks.extend(pairs.filter_map(|pair| LockedJoints::new(&pair)));
+        }
+        Ok(Self {
+            arm,
+            scenario,
+            experiment,
+            motion,
+            rated_torque: rated_torque_of(rated)?,
+            locks,
+            times: (1..=count).map(|i| spacing * i as f64).collect(),
+        })
+    }
+
+    /// The failure times, s.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Which joints lock: each by itself, then the pairs.
+    pub fn locks(&self) -> &[LockedJoints<N>] {
+        &self.locks
+    }
+
+    /// How many failures there are.
+    pub fn len(&self) -> usize {
+        self.times.len() * self.locks.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The torque limits that are kept, N·m (N); infinite where there is none.
+    pub fn rated_torque(&self) -> &SVector<f64, N> {
+        &self.rated_torque
+    }
+
+    /// The lock that laws with coefficients are tuned for: the scenario's joints, at the one of its times that is nearest to the middle
+    /// of the motion.
+    pub fn tuning(&self) -> Tuning {
+        let middle = 0.5 * self.scenario.motion().duration();
+        let times = self.scenario.failure_times().iter().copied();
+        let nearest = times.min_by(|a, b| (a - middle).abs().total_cmp(&(b - middle).abs()));
+        Tuning {
+            joints: self.scenario.failed_joints().to_vec(),
+            time: nearest.unwrap_or(middle),
+        }
+    }
+
+    /// The motion with `joints` locking at `time`, sampled as the grid's failures are.
+    ///
+    /// # Errors
+    /// When a torque is no finite number.
+    pub fn operation(
+        &self,
+        joints: LockedJoints<N>,
+        time: f64,
+        field: Field,
+    ) -> Result<Operation<N>, SearchError> {
+        self.sampled(joints, time, field, self.sample_period())
+    }
+
+    /// Every law, tuned and planned.
+    ///
+    /// A law that the rated torques leave no place for is left out; [`AssessedLaw::note`] of the others says how their searches ended.
+    ///
+    /// # Errors
+    /// When the motion under the tool force cannot be looked at.
+    pub fn laws(&self) -> Result<Vec<AssessedLaw<N>>, ExperimentError> {
+        let plain = |law, tactic| AssessedLaw {
+            law,
+            tuned: None,
+            force_budget: None,
+            tactic,
+            note: String::new(),
+        };
+        let mut laws = vec![plain(Law::None, Tactic::Constant(Compensation::none()))];
+        laws.extend(self.tuned()?);
+        let moments = self.moments()?;
+        for (law, coefficients) in [
+            (Law::ConstantPerJoint, CoefficientLaw::PerJoint),
+            (Law::ConstantProjected, CoefficientLaw::Projected),
+        ] {
+            if let Ok(best) = best_constant(&moments, coefficients) {
+                let tactic = Tactic::Constant(coefficients.with(best.coefficients));
+                laws.push(AssessedLaw {
+                    note: format!("gap {:.1e} N m, {:.2} s", best.gap, best.seconds),
+                    ..plain(law, tactic)
+                });
+            }
+        }
+        let ramp = self.scenario.assess().ramp();
+        laws.push(plain(Law::AfterOnly, Tactic::Planned(Plan::nothing(ramp))));
+        laws.extend(self.robust(&moments, &plain));
+        laws.push(plain(Law::Limit, Tactic::Known));
+        Ok(laws)
+    }
+
+    /// What each of `laws` makes of a failure; `None` where the limits leave a law nothing.
+    ///
+    /// # Errors
+    /// When the motion under the tool force cannot be looked at.
+    pub fn cases(
+        &self,
+        laws: &[AssessedLaw<N>],
+        failure: usize,
+    ) -> Result<Vec<Option<AssessedCase>>, ExperimentError> {
+        let joints = self.locks[failure / self.times.len()];
+        let time = self.times[failure % self.times.len()];
+        let operation = self.operation(joints, time, Field::DynamicManipulability)?;
+        let cases = laws.iter().map(|law| {
+            Ok(match &law.tactic {
+                Tactic::Constant(compensation) => {
+                    let assessment = operation.assess(compensation);
+                    Some(AssessedCase::new(&operation, &assessment))
+                }
+                Tactic::Kinematic(compensation) => {
+                    let operation = self.operation(joints, time, Field::KinematicManipulability)?;
+                    let assessment = operation.assess(compensation);
+                    Some(AssessedCase::new(&operation, &assessment))
+                }
+                Tactic::Planned(plan) => Some(planned(&operation, plan)),
+                Tactic::Known => optimal(&operation, ForcePriority::Exact)
+                    .ok()
+                    .map(|found| AssessedCase::new(&operation, &found.assessment)),
+            })
+        });
+        cases.collect()
+    }
+
+    /// Every single lock at every time, for what is planned for all of them.
+    fn moments(&self) -> Result<Vec<Moment<N>>, SearchError> {
+        let moment = |time: &f64| {
+            let mut before = None;
+            let mut after = Vec::with_capacity(N);
+            for joints in self.locks.iter().filter(|lock| lock.len() == 1) {
+                let coarse = self.scenario.motion().duration();
+                let operation =
+                    self.sampled(*joints, *time, Field::DynamicManipulability, coarse)?;
+                before = Some(*operation.before());
+                after.push(*operation.after());
+            }
+            Ok(before.map(|before| Moment { before, after }))
+        };
+        let moments = self.times.iter().map(moment);
+        let moments: Result<Vec<_>, SearchError> = moments.collect();
+        Ok(moments?.into_iter().flatten().collect())
+    }
+
+    /// The laws with coefficients for one lock.
+    fn tuned(&self) -> Result<Vec<AssessedLaw<N>>, ExperimentError> {
+        let tuning = self.tuning();
+        let Some(joints) = LockedJoints::new(&tuning.joints) else {
+            return Ok(Vec::new());
+        };
+        let operation = self.operation(joints, tuning.time, Field::DynamicManipulability)?;
+        let kinematic = self.operation(joints, tuning.time, Field::KinematicManipulability)?;
+        let found = [
+            (Law::PerJoint, cancel_per_joint(&operation)),
+            (
+                Law::Projected,
+                least_impact(&operation, Objective::LeastSquares),
+            ),
+            (Law::Kinematic, cancel_per_joint(&kinematic)),
+        ];
+        let laws = found.into_iter().filter_map(|(law, found)| {
+            let found = found.ok()?;
+            Some(AssessedLaw {
+                law,
+                tuned: Some(tuning.clone()),
+                force_budget: None,
+                tactic: match law {
+                    Law::Kinematic => Tactic::Kinematic(found.compensation),
+                    _ => Tactic::Constant(found.compensation),
+                },
+                note: String::new(),
+            })
+        });
+        Ok(laws.collect())
+    }
+
+    /// One law for each force budget.
+    fn robust(
+        &self,
+        moments: &[Moment<N>],
+        plain: &dyn Fn(Law, Tactic<N>) -> AssessedLaw<N>,
+    ) -> Vec<AssessedLaw<N>> {
+        let settings = self.scenario.assess();
+        let steps = moments.iter().flat_map(|moment| {
+            let step = |after: &crate::search::OperatingPoint<N>| {
+                let step = after.planned - moment.before.planned;
+                after.locked.without(&step).norm()
+            };
+            moment.after.iter().map(step)
+        });
+        let largest = steps.fold(0.0, f64::max);
+        let budgets = settings.force_budgets().iter().filter_map(|budget| {
+            let options = RobustOptions {
+                objective: RobustObjective::WorstRatio {
+                    floor: (Self::NO_STEP * largest).max(f64::MIN_POSITIVE),
+                },
+                force_budget: *budget,
+                rate: SVector::repeat(settings.rate_limit()),
+                rated_torque: self.rated_torque,
+                ..RobustOptions::default()
+            };
+            let found = robust(moments, &options).ok()?;
+            let first = found.samples.first()?.before;
+            // The motion begins with what the first failure time has.
+            let samples = std::iter::once(first)
+                .chain(found.samples.iter().map(|sample| sample.before))
+                .collect();
+            let plan = Plan {
+                period: self.spacing(),
+                samples,
+                force_budget: *budget,
+                ramp: settings.ramp(),
+            };
+            Some(AssessedLaw {
+                force_budget: Some(*budget),
+                note: format!(
+                    "{} variables, {} iterations, gap {:.1e} of {:.4}, {:.2} s",
+                    found.variables, found.iterations, found.gap, found.objective, found.seconds
+                ),
+                ..plain(Law::Robust, Tactic::Planned(plan))
+            })
+        });
+        budgets.collect()
+    }
+
+    fn spacing(&self) -> f64 {
+        self.scenario.motion().duration() / (self.times.len() + 1) as f64
+    }
+
+    /// A whole part of the grid's spacing, so that plans are looked at where they were made.
+    fn sample_period(&self) -> f64 {
+        let spacing = self.spacing();
+        spacing / (spacing / Self::SAMPLE_PERIOD).ceil().max(1.0)
+    }
+
+    fn sampled(
+        &self,
+        joints: LockedJoints<N>,
+        time: f64,
+        field: Field,
+        sample_period: f64,
+    ) -> Result<Operation<N>, SearchError> {
+        let options = OperationOptions {
+            sample_period,
+            rated_torque: self.rated_torque,
+            field,
+            ..OperationOptions::default()
+        };
+        let force = |time| self.experiment.force().at(time);
+        let failure = Failure { joints, time };
+        Operation::new(self.arm, &self.motion, force, &failure, &options)
+    }
+}
+
+/// A plan until the lock; then what brings the healthy torques nearest to what they were, fading out.
+fn planned<const N: usize>(operation: &Operation<N>, plan: &Plan<N>) -> AssessedCase {
+    let before = plan.before(operation.before());
+    let recourse = operation.recourse(&before, plan.force_budget);
+    let assessment = operation.assess_torque(compensation::Law::Optimal, |point| {
+        if point.locked.is_empty() {
+            plan.before(point)
+        } else {
+            torque(point, &recourse) * plan.fade(point.time - operation.failure().time)
+        }
+    });
+    AssessedCase::new(operation, &assessment)
+}
