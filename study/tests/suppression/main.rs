@@ -4,6 +4,7 @@ mod arms;
 mod compensation;
 mod failure;
 mod limits;
+mod on_line;
 mod optimal;
 mod search;
 mod singular;
