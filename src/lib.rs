@@ -67,7 +67,9 @@ pub mod proof;
 
 pub use arm::methods::{Argument, Method};
 pub use arm::{Angle, Arm, Joint, JointKind, Link, Placement, TaskRow, TaskRows};
-pub use control::compensation::{Compensation, Controller, Cycle, Law, Projector, Status};
+pub use control::compensation::{
+    Compensation, Controller, Cycle, Law, OnLine, Projector, Status, Weighting,
+};
 pub use control::failure::{Failure, LockedJoints};
 pub use control::trajectory::{JointLimits, JointState, Trajectory, Trapezoid};
 pub use generic::SerialChain;

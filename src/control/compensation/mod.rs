@@ -12,7 +12,9 @@
 //! [`Status::NearSingular`] says so wherever c is below [`NEAR_SINGULAR`](crate::control::null_space::NEAR_SINGULAR).
 
 mod controller;
+mod factor;
 mod limits;
+mod on_line;
 mod pose;
 mod whitening;
 
@@ -20,6 +22,7 @@ use nalgebra::{SVector, Vector6};
 
 pub use controller::{Controller, Cycle};
 pub use limits::Limits;
+pub use on_line::{OnLine, Weighting};
 pub use pose::{Projector, TaskPose};
 
 /// A law of compensation.

@@ -85,7 +85,7 @@ impl<const N: usize> TaskPose<N> {
     /// P x for the moving joints, times the factor of the rule near singular poses; exactly 0 where the moving joints have no null space.
     #[inline]
     pub fn project(&self, x: &SVector<f64, N>) -> SVector<f64, N> {
-        if self.null_space.rank() + self.locked.len() >= N {
+        if self.has_no_null_space() {
             // No direction is left; what the products below would leave is rounding, and a coefficient could be made for it.
             return SVector::zeros();
         }
@@ -98,6 +98,21 @@ impl<const N: usize> TaskPose<N> {
             },
         };
         projected * self.fade
+    }
+
+    /// `(I − J†J) x` for the moving joints, whatever the projector, times the factor of the rule near singular poses;
+    /// exactly 0 where they have no null space: the part of x that leaves the static tool force alone.
+    #[inline]
+    pub fn project_static(&self, x: &SVector<f64, N>) -> SVector<f64, N> {
+        if self.has_no_null_space() {
+            return SVector::zeros();
+        }
+        self.null_space.project(&self.locked.without(x)) * self.fade
+    }
+
+    /// Whether the moving joints have as many independent rows of J as there are of them.
+    pub(super) fn has_no_null_space(&self) -> bool {
+        self.null_space.rank() + self.locked.len() >= N
     }
 
     /// Jᵀ f for the moving joints and the task's rows of f, times the factor of the rule near singular poses.

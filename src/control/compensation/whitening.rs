@@ -2,8 +2,9 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::factor::Factor;
+use crate::TaskRows;
 use crate::control::null_space::NullSpace;
-use crate::{Real, TaskRows};
 
 /// With M = L Lᵀ and Ĵ = J L⁻ᵀ, `I − Jᵀ J̄ᵀ = L (I − Ĵ†Ĵ) L⁻¹`.
 #[derive(Clone, Copy, Debug)]
@@ -39,60 +40,5 @@ impl<const N: usize> Whitening<N> {
     pub(super) fn project(&self, x: SVector<f64, N>) -> SVector<f64, N> {
         self.factor
             .multiply(&self.null_space.project(&self.factor.solve(x)))
-    }
-}
-
-/// L with L Lᵀ = M, L lower triangular. Nalgebra's takes three times as long, for it does not know the dimension.
-///
-/// All loops run over whole columns, whose upper parts are 0: the compiler unrolls them.
-#[derive(Clone, Copy, Debug)]
-struct Factor<const N: usize> {
-    columns: [SVector<f64, N>; N],
-    /// One over L's diagonal.
-    inverse: [f64; N],
-}
-
-impl<const N: usize> Factor<N> {
-    /// Column by column (Golub and Van Loan, 4.2.5).
-    #[inline]
-    fn new(matrix: &SMatrix<f64, N, N>) -> Option<Self> {
-        let mut columns = [SVector::<f64, N>::zeros(); N];
-        let mut inverse = [0.0; N];
-        for j in 0..N {
-            let mut column: SVector<f64, N> = matrix.column(j).into();
-            for before in &columns[..j] {
-                column.axpy(-before[j], before, 1.0);
-            }
-            let pivot = column[j];
-            if !(pivot > 0.0 && pivot.is_finite()) {
-                return None;
-            }
-            inverse[j] = 1.0 / Real::sqrt(pivot);
-            column *= inverse[j];
-            column.iter_mut().take(j).for_each(|entry| *entry = 0.0);
-            columns[j] = column;
-        }
-        Some(Self { columns, inverse })
-    }
-
-    /// `L⁻¹ x`, forwards.
-    #[inline]
-    fn solve(&self, mut x: SVector<f64, N>) -> SVector<f64, N> {
-        for (j, (column, inverse)) in self.columns.iter().zip(&self.inverse).enumerate() {
-            let solved = x[j] * inverse;
-            x.axpy(-solved, column, 1.0);
-            x[j] = solved;
-        }
-        x
-    }
-
-    /// `L x`.
-    #[inline]
-    fn multiply(&self, x: &SVector<f64, N>) -> SVector<f64, N> {
-        let mut product = SVector::<f64, N>::zeros();
-        for (column, x) in self.columns.iter().zip(x) {
-            product.axpy(*x, column, 1.0);
-        }
-        product
     }
 }

@@ -5,6 +5,7 @@ mod compensation;
 mod failure;
 mod field;
 mod limits;
+mod on_line;
 mod optimal;
 mod search;
 mod singular;
