@@ -10,7 +10,7 @@ use crate::reproduce::words::significant;
 
 /// Markdown.
 pub(super) fn write(findings: &Findings<'_>) -> String {
-    let mut page = format!("# Every law over failures for which it was not tuned\n\n");
+    let mut page = "# Every law over failures for which it was not tuned\n\n".to_owned();
     for sentence in heading(findings) {
         let _ = writeln!(page, "{sentence}.");
     }
@@ -20,6 +20,8 @@ pub(super) fn write(findings: &Findings<'_>) -> String {
     }
     page.push('\n');
     let (head, rows) = columns(findings);
+    // A bar would end the cell.
+    let head: Vec<_> = head.iter().map(|text| text.replace('|', "\\|")).collect();
     let _ = writeln!(page, "| {} |", head.join(" | "));
     let _ = writeln!(page, "|{}", " --- |".repeat(head.len()));
     for row in rows {
@@ -44,6 +46,9 @@ pub(super) fn write(findings: &Findings<'_>) -> String {
     }
     page
 }
+
+/// A force error below it is rounding, N.
+const FORCE_ROUNDING: f64 = 1e-6;
 
 /// What can be said of this run.
 fn sentences(findings: &Findings<'_>) -> Vec<String> {
@@ -97,13 +102,26 @@ fn tuned(law: &LawAssessment) -> String {
     let singles = &law.singles;
     let for_what = law.tuned.as_ref().map_or_else(String::new, failure);
     let worst = singles.worst.as_ref().map_or_else(String::new, failure);
-    format!(
-        "{}, tuned for {for_what}, makes {:.0} % of the {} failures worse, at worst {worst} by a factor of {}; \
-         it bends the static tool force by up to {} N on the way.",
-        title(law),
-        100.0 * singles.share_worse,
-        singles.count,
-        significant(singles.worst_ratio),
-        significant(singles.worst_force_error)
-    )
+    let force = if singles.worst_force_error > FORCE_ROUNDING {
+        format!(
+            "it bends the static tool force by up to {} N on the way",
+            significant(singles.worst_force_error)
+        )
+    } else {
+        "it keeps the static tool force".to_owned()
+    };
+    let worse = if singles.share_worse > 0.0 {
+        format!(
+            "makes {:.0} % of the {} failures of single joints worse, at worst {worst} by a factor of {}",
+            100.0 * singles.share_worse,
+            singles.count,
+            significant(singles.worst_ratio)
+        )
+    } else {
+        format!(
+            "makes none of the {} failures of single joints worse",
+            singles.count
+        )
+    };
+    format!("{}, tuned for {for_what}, {worse}; {force}.", title(law))
 }

@@ -24,18 +24,14 @@ pub(crate) fn title(law: &LawAssessment) -> String {
         Law::Limit => "limit, force kept",
     };
     match law.force_budget {
-        Some(budget) => format!("{title}, {} N", significant(budget)),
+        Some(budget) => format!("{title}, {budget} N"),
         None => title.to_owned(),
     }
 }
 
 /// "joint 2 at 10 s".
 pub(super) fn failure(tuning: &Tuning) -> String {
-    format!(
-        "{} at {} s",
-        joints_named(&tuning.joints),
-        significant(tuning.time)
-    )
+    format!("{} at {} s", joints_named(&tuning.joints), tuning.time)
 }
 
 /// What stands above the table, a sentence a line.
@@ -50,8 +46,8 @@ pub(super) fn heading(findings: &Findings<'_>) -> Vec<String> {
             scenario.arm().name(),
             findings.joints,
             times.len(),
-            significant(first),
-            significant(last)
+            first,
+            last
         ),
         format!(
             "laws with coefficients are tuned for {}; ratios are of the torque step after to before, norms over the healthy joints",

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use nalgebra::SVector;
+use nalgebra::{SVector, Vector6};
 
 use super::case::AssessedCase;
 use super::law::{AssessedLaw, Law, Plan, Tactic, Tuning, torque};
@@ -13,7 +13,8 @@ use crate::search::{
     RobustObjective, RobustOptions, SearchError, best_constant, cancel_per_joint, least_impact,
     optimal, robust,
 };
-use ulna::control::compensation::{self, Compensation};
+use ulna::Trajectory;
+use ulna::control::compensation::{self, Compensation, FreeTorque, OnLine, Projector, TaskPose};
 use ulna::control::failure::{Failure, LockedJoints};
 
 /// The motion of a scenario's first experiment, with every joint (and every pair) locking at every failure time.
@@ -41,7 +42,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
     /// The largest time between two samples of a motion, s, where the grid is coarser.
     const SAMPLE_PERIOD: f64 = 0.125;
     /// Steps below this part of the largest of the grid need not become less for [`Law::Robust`].
-    const NO_STEP: f64 = 1e-4;
+    const NO_STEP: f64 = 1e-6;
 
     /// The grid of `scenario`, as its `[assess]` says.
     ///
@@ -159,6 +160,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         }
         let ramp = self.scenario.assess().ramp();
         laws.push(plain(Law::AfterOnly, Tactic::Planned(Plan::nothing(ramp))));
+        laws.push(plain(Law::OnLine, Tactic::Planned(self.on_line())));
         laws.extend(self.robust(&moments, &plain));
         laws.push(plain(Law::Limit, Tactic::Known));
         Ok(laws)
@@ -196,12 +198,12 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         cases.collect()
     }
 
-    /// Every single lock at every time, for what is planned for all of them.
+    /// Every lock at every time, for what is planned for all of them.
     fn moments(&self) -> Result<Vec<Moment<N>>, SearchError> {
         let moment = |time: &f64| {
             let mut before = None;
             let mut after = Vec::with_capacity(N);
-            for joints in self.locks.iter().filter(|lock| lock.len() == 1) {
+            for joints in &self.locks {
                 let coarse = self.scenario.motion().duration();
                 let operation =
                     self.sampled(*joints, *time, Field::DynamicManipulability, coarse)?;
@@ -245,6 +247,28 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
             })
         });
         Ok(laws.collect())
+    }
+
+    /// What the on-line law does along the motion, as long as nothing has locked.
+    fn on_line(&self) -> Plan<N> {
+        let law = OnLine::equal();
+        let period = self.sample_period();
+        let count = (self.scenario.motion().duration() / period).round() as u32;
+        let none = LockedJoints::NONE;
+        let samples = (0..=count).map(|i| {
+            let state = self.motion.state(period * f64::from(i));
+            let pose = TaskPose::new(self.arm, &state.q, none, Projector::Static);
+            FreeTorque {
+                torque: law.compensation(self.arm, &state, &pose, none),
+                wrench: Vector6::zeros(),
+            }
+        });
+        Plan {
+            period,
+            samples: samples.collect(),
+            force_budget: law.force_budget,
+            ramp: self.scenario.assess().ramp(),
+        }
     }
 
     /// One law for each force budget.

@@ -7,6 +7,7 @@ mod field;
 mod limits;
 mod on_line;
 mod optimal;
+mod robust;
 mod search;
 mod singular;
 mod trajectory;

@@ -15,6 +15,8 @@ pub(super) struct Program {
     rows: Vec<(usize, usize, f64)>,
     bounds: Vec<f64>,
     cones: Vec<SupportedConeT<f64>>,
+    /// Of the gap and of the constraints, relative.
+    pub(super) tolerance: f64,
 }
 
 /// What the solver says.
@@ -34,6 +36,7 @@ impl Program {
             rows: Vec::new(),
             bounds: Vec::new(),
             cones: Vec::new(),
+            tolerance: 1e-10,
         }
     }
 
@@ -148,9 +151,9 @@ impl Program {
         let a = CscMatrix::new_from_triplets(self.bounds.len(), variables, rows, columns, values);
         let settings = DefaultSettings {
             verbose: false,
-            tol_gap_abs: 1e-10,
-            tol_gap_rel: 1e-10,
-            tol_feas: 1e-10,
+            tol_gap_abs: self.tolerance,
+            tol_gap_rel: self.tolerance,
+            tol_feas: self.tolerance,
             ..DefaultSettings::default()
         };
         let mut solver =

@@ -5,7 +5,7 @@ use std::time::Instant;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 use super::conic::Program;
-use super::robust::Moment;
+use super::robust::{Moment, TOLERANCE};
 use crate::search::coefficients::{CoefficientLaw, NO_SAY};
 use crate::search::{SearchError, SolveStatus};
 
@@ -25,6 +25,9 @@ pub struct BestConstant<const N: usize> {
     pub seconds: f64,
 }
 
+/// What a coefficient costs that adds 1 N·m to a step, N·m: it decides among equals, and keeps the solver's first point near.
+const TIE: f64 = 1e-9;
+
 /// `min over k of max over all locks of all moments of ‖step + R k‖` over the healthy joints, a second-order cone program.
 /// Rated torques are left to the control cycle.
 ///
@@ -42,7 +45,11 @@ pub fn best_constant<const N: usize>(
         let before = law.map(&moment.before);
         strongest = strongest.max(moment.before.pose.gradient.amax());
         for after in &moment.after {
-            let map: SMatrix<f64, N, N> = law.map(after) - before;
+            let mut map: SMatrix<f64, N, N> = law.map(after) - before;
+            // What goes into the brakes does not count.
+            for joint in after.locked.iter() {
+                map.row_mut(joint).fill(0.0);
+            }
             size = size.sup(&column_sizes(&map));
             let step = after
                 .locked
@@ -50,25 +57,29 @@ pub fn best_constant<const N: usize>(
             locks.push((after.locked, map, step));
         }
     }
-    // In units in which each coefficient adds at most 1 N·m to a step.
+    // In units in which the largest step is 1, and each coefficient adds at most 1 to a step.
+    let largest = locks.iter().map(|(.., step)| step.norm());
+    let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
     let strongest = strongest.max(size.amax());
     let active: Vec<usize> = (0..N).filter(|i| size[*i] > NO_SAY * strongest).collect();
     let variables = active.len();
     let mut program = Program::new(variables + 1);
+    program.tolerance = TOLERANCE;
     program.linear[variables] = 1.0;
+    program.quadratic[..variables].fill(TIE);
     for (locked, map, step) in &locks {
         let healthy: Vec<usize> = locked.healthy().collect();
         let rows = DMatrix::from_fn(healthy.len(), variables, |row, column| {
             map[(healthy[row], active[column])] / size[active[column]]
         });
-        let step: Vec<f64> = healthy.iter().map(|joint| step[*joint]).collect();
+        let step: Vec<f64> = healthy.iter().map(|joint| step[*joint] / largest).collect();
         program.cone(&[(0, &rows)], &step, 0.0, Some((variables, 1.0)));
     }
     let solved = program.solve()?;
     let minimum = solved.ok_or(SearchError::NotSolved("infeasible without limits"))?;
     let mut coefficients = SVector::zeros();
     for (joint, x) in active.iter().zip(&minimum.x) {
-        coefficients[*joint] = x / size[*joint];
+        coefficients[*joint] = x * largest / size[*joint];
     }
     Ok(BestConstant {
         coefficients,
@@ -80,7 +91,7 @@ pub fn best_constant<const N: usize>(
         )
         .amax(),
         status: minimum.status,
-        gap: minimum.gap,
+        gap: minimum.gap * largest,
         seconds: clock.elapsed().as_secs_f64(),
     })
 }

@@ -105,6 +105,9 @@ pub struct RobustSample<const N: usize> {
     pub impact: Vec<f64>,
 }
 
+/// Cones of thousands of variables are solved so well: ratios to eight digits.
+pub(super) const TOLERANCE: f64 = 1e-8;
+
 /// The compensation that leaves least by `options`, whichever lock of each of `moments` happens.
 ///
 /// # Errors
@@ -123,6 +126,7 @@ pub fn robust<const N: usize>(
         .collect();
     let layout = Layout::of(&parts, &options.objective);
     let mut program = Program::new(layout.variables);
+    program.tolerance = TOLERANCE;
     for (i, part) in parts.iter().enumerate() {
         part.add(&mut program, &layout.places[i], options);
         if let Some((next, after)) = parts.get(i + 1).zip(layout.places.get(i + 1)) {
