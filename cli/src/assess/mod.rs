@@ -48,6 +48,8 @@ struct Findings<'s> {
     times: Vec<f64>,
     tuning: Tuning,
     joints: usize,
+    /// What the task leaves to the healthy arm.
+    null_space: usize,
     /// Whether any torque limit was kept.
     limited: bool,
     seconds: f64,
@@ -102,6 +104,7 @@ impl<'s> ForArm for Work<'s> {
             times: grid.times().to_vec(),
             tuning: grid.tuning(),
             joints: N,
+            null_space: N.saturating_sub(arm.task().len()),
             limited: grid.rated_torque().iter().any(|rated| rated.is_finite()),
             seconds: clock.elapsed().as_secs_f64(),
         })

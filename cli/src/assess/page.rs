@@ -58,6 +58,11 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
         said.push("No lock in this motion makes a step: there is nothing to suppress.".to_owned());
         return said;
     }
+    if findings.null_space == 0 {
+        said.push(
+            "The task takes all joints: there is no null space, and no compensation keeps the static tool force.".to_owned(),
+        );
+    }
     for law in laws.iter().filter(|law| law.tuned.is_some()) {
         said.push(tuned(law));
     }

@@ -1,5 +1,6 @@
 //! The commands, run as a user runs them: exit code, stdout, stderr, and the files that are written or not.
 
+mod assess;
 mod campaign;
 mod check;
 mod cost;
