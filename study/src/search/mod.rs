@@ -6,8 +6,9 @@
 //!
 //! - [`Stepwise`] searches as the paper does (Figure 2);
 //! - [`cancel_per_joint`] solves Eq. 16 in closed form, joint by joint;
-//! - [`least_impact`] solves Eq. 20 exactly (feature "optimal");
-//! - [`optimal()`] does without k_d and ∇w_D, and `frontier` trades tool force for impact (feature "optimal").
+//! - [`least_impact`] solves Eq. 20 exactly;
+//! - [`optimal()`] does without k_d and ∇w_D, and [`frontier`] trades tool force for impact; [`Optimum`] asks for fairness among joints;
+//! - [`lower_every_joint`] proves that no compensation which keeps the tool force lowers every joint, or finds one.
 
 mod coefficients;
 mod convex;
@@ -15,15 +16,20 @@ mod field;
 mod interval;
 mod operation;
 mod stepwise;
+mod worse;
 
 use ulna::control::compensation::Compensation;
 
 pub use coefficients::{CoefficientLaw, cancel_per_joint, equivalent_per_joint};
-pub use convex::{ForcePriority, FrontierPoint, Objective, frontier, least_impact, optimal};
+pub use convex::{
+    Acts, Certificate, Fairness, ForcePriority, FrontierPoint, LowerAll, Objective, Optimum, Scope,
+    frontier, least_impact, lower_every_joint, optimal,
+};
 pub use field::{Field, kinematic_manipulability_gradient};
 pub use interval::{Interval, feasible_interval};
-pub use operation::{Assessment, OperatingPoint, Operation, OperationOptions};
+pub use operation::{Assessment, EFFORT, OperatingPoint, Operation, OperationOptions};
 pub use stepwise::Stepwise;
+pub use worse::{WorseJoint, worse_joints};
 
 /// Why there is nothing to search, or nothing to find. Joints count from 0 in the fields and from 1 in the messages.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
