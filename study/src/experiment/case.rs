@@ -1,7 +1,7 @@
 //! [`Case`]: what came of one experiment, one failure time and one [`SearchMethod`].
 
-use super::Rollout;
-use crate::search::{SearchError, SolveStatus};
+use super::{ForceKept, Rollout};
+use crate::search::{SearchError, SolveStatus, WorseJoint, worse_joints};
 use ulna::Law;
 
 /// How a compensation is found.
@@ -103,6 +103,11 @@ impl Case {
             .collect()
     }
 
+    /// The healthy joints that bear more with the compensation than without.
+    pub fn worse_joints(&self) -> Vec<WorseJoint> {
+        worse_joints(&self.impact_before, &self.impact_after, &self.failed_joints)
+    }
+
     /// The norm of the impact over the joints that are not locked: before and after, N·m.
     pub fn healthy_impact(&self) -> (f64, f64) {
         let norm = |impact: &[f64]| {
@@ -135,6 +140,8 @@ pub struct Study {
     pub cases: Vec<Case>,
     /// The frontier that [`SearchMethod::Optimal`] is the end of; `None` where the limits leave no compensation at all.
     pub tradeoff: Option<Tradeoff>,
+    /// What the tool force, kept exactly, leaves to any law.
+    pub force_kept: ForceKept,
 }
 
 impl Study {

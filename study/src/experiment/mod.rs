@@ -4,8 +4,10 @@
 //! ever shorter control cycles; extremes and series are those of a [`Controller`](ulna::Controller) that executes the whole motion cycle by cycle.
 //! Results carry plain lists, one entry for each joint, so that tables and figures need not know how many there are.
 
+mod ablation;
 mod campaign;
 mod case;
+mod force_kept;
 mod rollout;
 mod runner;
 mod truth;
@@ -17,8 +19,10 @@ use crate::search::SearchError;
 use crate::simulation::{Ending, SimulationError};
 use ulna::Arm;
 
+pub use ablation::{Ablation, AblationOutcome, AblationRow, Variant};
 pub use campaign::{Campaign, CampaignCase, CampaignResult};
 pub use case::{Case, Search, SearchMethod, Study, Tradeoff};
+pub use force_kept::{ForceKept, Verdict};
 pub use rollout::{Rollout, Series};
 pub use runner::ExperimentRunner;
 pub use truth::{BrakeImpulse, Truth, TruthRun};

@@ -5,14 +5,14 @@ use std::fmt;
 use nalgebra::SVector;
 
 use super::{
-    AnyArm, Case, ExperimentError, KNOT_PERIOD, Rollout, Search, SearchMethod, Study, Tradeoff,
-    list, rated_torque,
+    AnyArm, Case, ExperimentError, ForceKept, KNOT_PERIOD, Rollout, Search, SearchMethod, Study,
+    Tradeoff, list, rated_torque,
 };
 use crate::scenario::{Experiment, PlannedMotion, Scenario};
 use crate::search::{
-    CoefficientLaw, ForcePriority, FrontierPoint, Objective, Operation, OperationOptions,
-    SearchError, Solution, Stepwise, cancel_per_joint, equivalent_per_joint, frontier,
-    least_impact, optimal,
+    CoefficientLaw, EFFORT, Field, ForcePriority, FrontierPoint, Objective, Operation,
+    OperationOptions, SearchError, Solution, Stepwise, cancel_per_joint, equivalent_per_joint,
+    frontier, least_impact, optimal,
 };
 use ulna::control::compensation::{Compensation, Controller};
 use ulna::control::failure::{Failure, LockedJoints};
@@ -92,6 +92,7 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
             failure_time,
             tradeoff: tradeoff(&operation, per_joint, Self::FRONTIER_POINTS).ok(),
             cases: cases.into(),
+            force_kept: ForceKept::new(&operation),
         })
     }
 
@@ -100,6 +101,17 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
         experiment: &Experiment,
         failure_time: f64,
     ) -> Result<Operation<N>, ExperimentError> {
+        self.operation_with(experiment, failure_time, Field::default(), EFFORT)
+    }
+
+    /// The same with a field in the place of ∇w_D, and a weight of effort.
+    pub(super) fn operation_with(
+        &self,
+        experiment: &Experiment,
+        failure_time: f64,
+        field: Field,
+        effort: f64,
+    ) -> Result<Operation<N>, ExperimentError> {
         let failure = Failure {
             joints: self.failed_joints,
             time: failure_time,
@@ -107,6 +119,8 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
         let options = OperationOptions {
             sample_period: self.scenario.cycle(),
             rated_torque: rated_torque(experiment)?,
+            field,
+            effort,
             ..OperationOptions::default()
         };
         let force = |time| experiment.force().at(time);

@@ -70,22 +70,43 @@ impl<'a, const N: usize> Maps<'a, N> {
 
     /// ∂Δτ̃/∂k_d.
     pub(super) fn step(&self) -> SMatrix<f64, N, N> {
-        self.at[self.operation.lock()] - self.at[self.operation.lock() - 1]
+        self.after() - self.before()
+    }
+
+    /// ∂U/∂k_d just before the lock.
+    pub(super) fn before(&self) -> &SMatrix<f64, N, N> {
+        &self.at[self.operation.lock() - 1]
+    }
+
+    /// ∂U/∂k_d just after it.
+    pub(super) fn after(&self) -> &SMatrix<f64, N, N> {
+        &self.at[self.operation.lock()]
+    }
+
+    /// `‖(U_i, U'_i)‖` of Eq. 16 at the lock, for each joint per coefficient.
+    pub(super) fn effort(&self) -> SVector<f64, N> {
+        SVector::from_fn(|i, _| self.before()[(i, i)].hypot(self.after()[(i, i)]))
     }
 }
 
 /// Eq. 16 exactly: `k_di = −step_i / ∂Δτ̃_i/∂k_di` cancels each joint's step; where a rated torque forbids it,
 /// the nearest value that Eq. 28 allows leaves the least, since |Δτ̃_i| is convex in k_di.
+///
+/// With a weight e of effort ([`OperationOptions::effort`](super::OperationOptions::effort)), `|Δτ̃_i| + e ‖(U_i, U'_i)‖` is made least.
+/// It is convex too, with corners at 0 and where the step is cancelled: a joint is left alone, with k_di = 0 or as near to it as may be,
+/// if a newton metre of its compensation takes less than e newton metres from its step, and is treated as without a weight if more.
 pub fn cancel_per_joint<const N: usize>(
     operation: &Operation<N>,
 ) -> Result<Solution<N>, SearchError> {
     let clock = Instant::now();
     let maps = Maps::new(operation, CoefficientLaw::PerJoint);
     let slopes = step_slopes(operation);
+    let effort = maps.effort();
     let step = operation.step();
     let mut k = SVector::zeros();
     for i in 0..N {
-        let wish = slopes[i].map_or(0.0, |slope| -step[i] / slope);
+        let worth = slopes[i].filter(|slope| slope.abs() > operation.effort() * effort[i]);
+        let wish = worth.map_or(0.0, |slope| -step[i] / slope);
         k[i] = maps.interval(i, &k)?.nearest(wish);
     }
     let seconds = clock.elapsed().as_secs_f64();

@@ -6,8 +6,9 @@
 //!
 //! - [`Stepwise`] searches as the paper does (Figure 2);
 //! - [`cancel_per_joint`] solves Eq. 16 in closed form, joint by joint;
-//! - [`least_impact`] solves Eq. 20 exactly (feature "optimal");
-//! - [`optimal()`] does without k_d and ∇w_D, and `frontier` trades tool force for impact (feature "optimal").
+//! - [`least_impact`] solves Eq. 20 exactly;
+//! - [`optimal()`] does without k_d and ∇w_D, and [`frontier`] trades tool force for impact; [`Optimum`] asks for fairness among joints;
+//! - [`lower_every_joint`] proves that no compensation which keeps the tool force lowers every joint, or finds one.
 
 mod coefficients;
 mod convex;
@@ -16,19 +17,22 @@ mod interval;
 mod operation;
 mod recourse;
 mod stepwise;
+mod worse;
 
 use ulna::control::compensation::Compensation;
 
 pub use coefficients::{CoefficientLaw, cancel_per_joint, equivalent_per_joint};
 pub use convex::{
-    BestConstant, ForcePriority, FrontierPoint, Moment, Objective, RobustObjective, RobustOptions,
-    RobustPlan, RobustSample, best_constant, frontier, least_impact, optimal, robust,
+    Acts, BestConstant, Certificate, Fairness, ForcePriority, FrontierPoint, LowerAll, Moment,
+    Objective, Optimum, RobustObjective, RobustOptions, RobustPlan, RobustSample, Scope,
+    best_constant, frontier, least_impact, lower_every_joint, optimal, robust,
 };
 pub use field::{Field, kinematic_manipulability_gradient};
 pub use interval::{Interval, feasible_interval};
-pub use operation::{Assessment, OperatingPoint, Operation, OperationOptions};
+pub use operation::{Assessment, EFFORT, OperatingPoint, Operation, OperationOptions};
 pub use recourse::nearest_torque;
 pub use stepwise::Stepwise;
+pub use worse::{WorseJoint, worse_joints};
 
 /// Why there is nothing to search, or nothing to find. Joints count from 0 in the fields and from 1 in the messages.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

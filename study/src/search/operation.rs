@@ -2,7 +2,8 @@
 
 use nalgebra::{SVector, Vector6};
 
-use super::{Field, SearchError};
+use super::convex::ROUNDING;
+use super::{Field, Scope, SearchError, WorseJoint, worse_joints};
 use ulna::Arm;
 use ulna::control::compensation::{Compensation, Law, Limits, Projector, TaskPose};
 use ulna::control::failure::{Failure, LockedJoints};
@@ -21,10 +22,19 @@ pub struct OperationOptions<const N: usize> {
     pub field: Field,
     /// Rated torques, N·m (N); infinite where there is no limit.
     pub rated_torque: SVector<f64, N>,
+    /// e, the weight of effort in every search: a newton metre of compensation at the lock weighs as e newton metres of impact,
+    /// so that of compensations that are nearly as good the cheapest is found.
+    ///
+    /// Least norms become least `‖Δτ̃‖² + e² (‖U‖² + ‖U'‖²)`, with U just before and U' just after the lock; other objectives alike.
+    /// At least 0; with 0 impact alone counts.
+    pub effort: f64,
 }
 
+/// The default of [`OperationOptions::effort`].
+pub const EFFORT: f64 = 1e-3;
+
 impl<const N: usize> Default for OperationOptions<N> {
-    /// Samples every 50 ms, an instant lock, the static projector, ∇w_D, no limits.
+    /// Samples every 50 ms, an instant lock, the static projector, ∇w_D, no limits, a small weight of effort.
     fn default() -> Self {
         Self {
             sample_period: 0.05,
@@ -32,6 +42,7 @@ impl<const N: usize> Default for OperationOptions<N> {
             projector: Projector::Static,
             field: Field::default(),
             rated_torque: SVector::repeat(f64::INFINITY),
+            effort: EFFORT,
         }
     }
 }
@@ -54,6 +65,7 @@ pub struct OperatingPoint<const N: usize> {
 pub struct Operation<const N: usize> {
     failure: Failure<N>,
     rated_torque: SVector<f64, N>,
+    effort: f64,
     /// In time order: healthy up to t_f, locked from t_f + Δt on.
     samples: Vec<OperatingPoint<N>>,
     /// The index of the first sample after the lock.
@@ -118,6 +130,13 @@ impl<const N: usize> Operation<N> {
                 value: options.control_period,
             });
         }
+        if !(options.effort >= 0.0 && options.effort.is_finite()) {
+            return Err(SearchError::Argument {
+                name: "weight of effort",
+                range: "a finite number of at least 0",
+                value: options.effort,
+            });
+        }
         if !(failure.time >= 0.0 && after <= duration) {
             return Err(SearchError::FailureTime {
                 time: failure.time,
@@ -153,6 +172,7 @@ impl<const N: usize> Operation<N> {
         Ok(Self {
             failure: *failure,
             rated_torque: options.rated_torque.map(|rated| rated.max(0.0)),
+            effort: options.effort,
             samples,
             lock,
         })
@@ -166,6 +186,11 @@ impl<const N: usize> Operation<N> {
     /// The rated torques, N·m (N).
     pub fn rated_torque(&self) -> &SVector<f64, N> {
         &self.rated_torque
+    }
+
+    /// e of [`OperationOptions::effort`].
+    pub fn effort(&self) -> f64 {
+        self.effort
     }
 
     /// Every sample, in time order.
@@ -196,6 +221,26 @@ impl<const N: usize> Operation<N> {
     /// The joints that the failure leaves, counted from 0.
     pub fn healthy(&self) -> impl Iterator<Item = usize> {
         self.failure.joints.healthy()
+    }
+
+    /// The healthy joints that are worse off with a compensation of this assessment than without any.
+    pub fn worse_joints(&self, assessment: &Assessment<N>) -> Vec<WorseJoint> {
+        let locked: Vec<usize> = self.failure.joints.iter().collect();
+        let (step, impact) = (self.step(), assessment.impact);
+        worse_joints(step.as_slice(), impact.as_slice(), &locked)
+    }
+
+    /// The largest of |Δτ̃_i| / |step_i| over the joints of `scope` that have a step without compensation; 0 if none has.
+    pub fn worst_ratio(&self, assessment: &Assessment<N>, scope: Scope) -> f64 {
+        let step = self.step();
+        let planned = [self.before(), self.after()].map(|sample| sample.planned.amax());
+        let rounding = ROUNDING * planned[0].max(planned[1]);
+        let joints = (0..N).filter(|joint| {
+            let counts = scope == Scope::All || !self.failure.joints.contains(*joint);
+            counts && step[*joint].abs() > rounding
+        });
+        let ratios = joints.map(|joint| (assessment.impact[joint] / step[joint]).abs());
+        ratios.fold(0.0, f64::max)
     }
 
     /// What `compensation` does to the operation, cut at rated torques as a control cycle cuts it.

@@ -12,6 +12,8 @@ use super::{Operation, SearchError, Solution, SolveStatus};
 ///
 /// With Eq. 16 each joint is on its own, and one pass finds the best point of the grid. With Eq. 20 the coefficients
 /// act together; the passes are repeated until none moves any more.
+///
+/// A weight of effort ([`OperationOptions::effort`](super::OperationOptions::effort)) counts as in the exact searches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stepwise<const N: usize> {
     /// Where to start.
@@ -126,11 +128,19 @@ impl<const N: usize> Walk<'_, N> {
     /// What coefficient `i` is to make small, `step` away from here.
     fn cost(&self, i: usize, step: f64) -> f64 {
         let impact = self.impact + self.slopes.column(i) * step;
-        match self.maps.law {
-            CoefficientLaw::PerJoint => impact[i].abs(),
+        let (maps, effort) = (&self.maps, self.maps.operation.effort());
+        let mut k = self.k;
+        k[i] += step;
+        match maps.law {
+            CoefficientLaw::PerJoint => impact[i].abs() + effort * maps.effort()[i] * k[i].abs(),
             CoefficientLaw::Projected => {
-                let locked = self.maps.operation.failure().joints;
-                locked.without(&impact).norm_squared()
+                let locked = maps.operation.failure().joints;
+                let spent = if effort > 0.0 {
+                    (maps.before() * k).norm_squared() + (maps.after() * k).norm_squared()
+                } else {
+                    0.0
+                };
+                locked.without(&impact).norm_squared() + effort * effort * spent
             }
         }
     }

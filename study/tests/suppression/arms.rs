@@ -65,10 +65,21 @@ pub(crate) fn failure(joints: &[usize], time: f64) -> Failure<7> {
     }
 }
 
+/// Impact alone counts, effort does not.
 pub(crate) fn operation(failure: &Failure<7>, rated_torque: SVector<f64, 7>) -> Operation<7> {
+    weighted(failure, rated_torque, 0.0)
+}
+
+/// The same with a weight of effort.
+pub(crate) fn weighted(
+    failure: &Failure<7>,
+    rated_torque: SVector<f64, 7>,
+    effort: f64,
+) -> Operation<7> {
     let options = OperationOptions {
         sample_period: 0.25,
         rated_torque,
+        effort,
         ..OperationOptions::default()
     };
     let wrench = |_| paper_force();

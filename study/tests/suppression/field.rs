@@ -22,6 +22,7 @@ fn operation(time: f64, field: Field) -> Operation<7> {
     let options = OperationOptions {
         sample_period: 0.25,
         field,
+        effort: 0.0,
         ..OperationOptions::default()
     };
     let (motion, wrench) = (paper_like_motion(), |_| paper_force());

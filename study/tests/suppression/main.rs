@@ -1,8 +1,10 @@
 //! Planned motions, the impact torque of locked joints, and the controller that suppresses it.
 
 mod arms;
+mod certificate;
 mod compensation;
 mod failure;
+mod fairness;
 mod field;
 mod limits;
 mod on_line;

@@ -42,20 +42,54 @@ pub(super) fn least_squares_program(
     Ok(solution)
 }
 
-/// `min s` with `|step + R x| ≤ s` within the limits.
+/// `min s` with `|step + R x| ≤ s` within the limits; with rows `besides`, B: `min s² + ‖B x‖²`.
 pub(super) fn min_max(
     impact: &DMatrix<f64>,
     step: &DVector<f64>,
+    besides: &DMatrix<f64>,
     limits: &TorqueLimits,
+    constrain: Option<&dyn Fn(&mut Program)>,
 ) -> Result<Minimum, SearchError> {
-    let variables = impact.ncols();
-    let mut program = Program::new(variables + 1);
-    program.linear[variables] = 1.0;
-    for (map, bound) in [(impact.clone(), -step), (-impact, step.clone())] {
-        let within = map.insert_column(variables, -1.0);
+    let (variables, rows) = (impact.ncols(), besides.nrows());
+    let mut program = Program::new(variables + 1 + rows);
+    if rows == 0 {
+        program.linear[variables] = 1.0;
+    } else {
+        program.quadratic[variables] = 1.0;
+        // The rows' sizes go into the objective: the solver does not like small ones.
+        let mut definition = besides
+            .clone()
+            .resize_horizontally(variables + 1 + rows, 0.0);
+        for i in 0..rows {
+            let size = besides.row(i).amax();
+            if size > 0.0 {
+                definition.row_mut(i).unscale_mut(size);
+            }
+            program.quadratic[variables + 1 + i] = size * size;
+            definition[(i, variables + 1 + i)] = -1.0;
+        }
+        program.equal(&definition, &vec![0.0; rows]);
+    }
+    for (map, mut bound) in [(impact.clone(), -step), (-impact, step.clone())] {
+        let mut within = map.insert_column(variables, -1.0);
+        // Rows of very different sizes are not solved well.
+        for (i, bound) in bound.iter_mut().enumerate() {
+            let size = within.row(i).amax();
+            within.row_mut(i).unscale_mut(size);
+            *bound /= size;
+        }
         program.at_most(&within, bound.as_slice());
     }
+    if step.is_empty() {
+        // Nothing else bounds s where all joints are locked.
+        let mut least = DMatrix::zeros(1, variables + 1);
+        least[(0, variables)] = -1.0;
+        program.at_most(&least, &[0.0]);
+    }
     program.at_most(&limits.map, &limits.room);
+    if let Some(constrain) = constrain {
+        constrain(&mut program);
+    }
     let mut solution = program.solve()?.ok_or_else(|| limits.tightest())?;
     solution.x = solution.x.rows(0, variables).into_owned();
     Ok(solution)

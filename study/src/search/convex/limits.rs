@@ -2,9 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::pseudo_inverse::stack;
 use crate::search::{OperatingPoint, Operation, SearchError};
 
 /// Rated torques on `planned + T x`, both sides of each in turn.
+#[derive(Clone)]
 pub(super) struct TorqueLimits {
     /// T, and −T below it.
     pub(super) map: DMatrix<f64>,
@@ -50,6 +52,26 @@ impl TorqueLimits {
         }
     }
 
+    /// The same over the variables that `basis` spans.
+    pub(super) fn within(&self, basis: &DMatrix<f64>) -> Self {
+        Self {
+            map: &self.map * basis,
+            room: self.room.clone(),
+            places: self.places.clone(),
+        }
+    }
+
+    /// These, and `rows x` at most the first `room` and `−rows x` at most the second.
+    pub(super) fn and(&self, rows: &DMatrix<f64>, room: &[DVector<f64>; 2]) -> Self {
+        let mut both = self.room.clone();
+        both.extend(room.iter().flatten());
+        Self {
+            map: stack(&stack(&self.map, rows), &-rows),
+            room: both,
+            places: self.places.clone(),
+        }
+    }
+
     pub(super) fn admit(&self, x: &DVector<f64>) -> bool {
         let used = &self.map * x;
         used.iter().zip(&self.room).all(|(used, room)| used <= room)
@@ -57,7 +79,7 @@ impl TorqueLimits {
 
     /// The joint and the time with the least room.
     pub(super) fn tightest(&self) -> SearchError {
-        let rows = self.room.iter().enumerate();
+        let rows = self.room.iter().take(2 * self.places.len()).enumerate();
         let (row, _) = rows.min_by(|a, b| a.1.total_cmp(b.1)).unwrap_or((0, &0.0));
         match self.places.get(row % self.places.len().max(1)) {
             Some((joint, time)) => SearchError::Empty {

@@ -4,23 +4,32 @@
 //! and the static tool force is off by `E x`. Where no limit binds, the least-squares problems are solved by a pseudoinverse,
 //! which also picks the least x; otherwise by an interior-point method with a duality gap.
 
+mod certificate;
 mod conic;
 mod constant;
+mod fairness;
+mod free_map;
 mod least;
 mod limits;
 mod optimal;
+mod problem;
 mod projected;
 mod pseudo_inverse;
 mod robust;
+mod scope;
 
 use nalgebra::{DVector, SVector};
 
 use super::{Operation, Solution};
+pub use certificate::{Certificate, LowerAll, lower_every_joint};
 use conic::Minimum;
 pub use constant::{BestConstant, best_constant};
-pub use optimal::{ForcePriority, FrontierPoint, frontier, optimal};
+pub use fairness::{Acts, Fairness};
+pub use optimal::{ForcePriority, FrontierPoint, Optimum, frontier, optimal};
 pub use projected::{Objective, least_impact};
 pub use robust::{Moment, RobustObjective, RobustOptions, RobustPlan, RobustSample, robust};
+pub(super) use scope::ROUNDING;
+pub use scope::Scope;
 use ulna::control::compensation::Compensation;
 
 /// The healthy joints' entries of `vector`.

@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 use super::healthy_part;
 use super::least::{least_squares, min_max};
 use super::limits::TorqueLimits;
+use super::pseudo_inverse::stack;
 use crate::search::coefficients::{CoefficientLaw, Maps, NO_SAY};
 use crate::search::{Operation, SearchError, Solution};
 use ulna::control::compensation::Compensation;
@@ -48,11 +49,23 @@ pub fn least_impact<const N: usize>(
     let samples = operation.samples().iter().zip(maps.at.iter().map(scaled));
     let limits = TorqueLimits::new(operation, samples, active.len());
 
-    let minimum = match objective {
-        Objective::LeastSquares => least_squares((&impact, 1.0), &step, &limits)?,
-        Objective::MinMax => min_max(&impact, &step, &limits)?,
+    // Without weight, no rows.
+    let effort = match operation.effort() {
+        0.0 => DMatrix::zeros(0, active.len()),
+        weight => {
+            let at_lock = [maps.before(), maps.after()].map(scaled);
+            stack(&at_lock[0], &at_lock[1]) * weight
+        }
     };
-    let minimum = minimum.with_least_variables(&impact, &limits);
+    let outcome = stack(&impact, &effort);
+    let minimum = match objective {
+        Objective::LeastSquares => {
+            let step = step.resize_vertically(outcome.nrows(), 0.0);
+            least_squares((&outcome, 1.0), &step, &limits)?
+        }
+        Objective::MinMax => min_max(&impact, &step, &effort, &limits, None)?,
+    };
+    let minimum = minimum.with_least_variables(&outcome, &limits);
     let seconds = clock.elapsed().as_secs_f64();
     let mut k = SVector::zeros();
     for (i, x) in active.iter().zip(&minimum.x) {

@@ -33,7 +33,12 @@ pub(super) fn column_space(matrix: &DMatrix<f64>, size: f64) -> DMatrix<f64> {
 
 /// An orthonormal basis of a matrix's null space.
 pub(super) fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-    let rows = column_space(&matrix.transpose(), matrix.amax());
+    null_space_of_size(matrix, matrix.amax())
+}
+
+/// The same; `size` as above.
+pub(super) fn null_space_of_size(matrix: &DMatrix<f64>, size: f64) -> DMatrix<f64> {
+    let rows = column_space(&matrix.transpose(), size);
     let projector = DMatrix::identity(rows.nrows(), rows.nrows()) - &rows * rows.transpose();
     column_space(&projector, 1.0)
 }

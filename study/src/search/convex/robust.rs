@@ -16,7 +16,7 @@ use std::time::Instant;
 use nalgebra::{DMatrix, DVector, SVector};
 
 use super::conic::{Minimum, Program};
-use super::optimal::FreeMap;
+use super::free_map::FreeMap;
 use super::pseudo_inverse::{null_space, pseudo_inverse, stack};
 use crate::search::{OperatingPoint, SearchError, SolveStatus};
 use ulna::control::compensation::FreeTorque;
