@@ -69,7 +69,9 @@ pub use arm::methods::{Argument, Method};
 pub use arm::{Angle, Arm, Joint, JointKind, Link, Placement, TaskRow, TaskRows};
 pub use control::compensation::{Compensation, Controller, Cycle, Law, Projector, Status};
 pub use control::failure::{Failure, LockedJoints};
-pub use control::trajectory::{JointLimits, JointState, Trajectory, Trapezoid};
+pub use control::trajectory::{
+    JointLimits, JointState, PointToPoint, Profile, ProfileShape, Trajectory, Trapezoid,
+};
 pub use generic::SerialChain;
 pub use kernels::Unrolled;
 pub use kernels::batch::{ArmBatch, LengthMismatch};

@@ -9,6 +9,7 @@ pub struct Experiment {
     pub(super) title: String,
     pub(super) force: ToolForce,
     pub(super) rated_torque: Option<Vec<f64>>,
+    pub(super) step_time: f64,
     pub(super) references: Vec<Reference>,
     pub(super) figures: Vec<Figure>,
 }
@@ -24,7 +25,7 @@ impl Experiment {
         &self.title
     }
 
-    /// What the tool exerts.
+    /// What the tool exerts, and what a lock takes from it.
     pub fn force(&self) -> &ToolForce {
         &self.force
     }
@@ -32,6 +33,11 @@ impl Experiment {
     /// The rated torques to keep, N·m (N); `None` for no limit.
     pub fn rated_torque(&self) -> Option<&[f64]> {
         self.rated_torque.as_deref()
+    }
+
+    /// Δt of Eq. 18, s: from the last torque before the lock, at t_f, to the first after it. 0 is the limit of ever shorter ones.
+    pub fn step_time(&self) -> f64 {
+        self.step_time
     }
 
     /// Figures from elsewhere, to stand beside ours.

@@ -5,6 +5,8 @@ mod compensation;
 mod failure;
 mod limits;
 mod optimal;
+mod profiles;
 mod search;
 mod singular;
+mod step;
 mod trajectory;

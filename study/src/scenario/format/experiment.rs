@@ -2,7 +2,7 @@
 
 use super::bounds::{
     FAILURE_TIME, FIGURE as FIGURE_BOUND, FORCE as FORCE_BOUND, MAX_COEFFICIENTS, MAX_FIGURES,
-    RATED,
+    RATED, STEP_TIME as STEP_TIME_BOUND,
 };
 use crate::scenario::read::{FigureWord, RatedWord};
 use ulna_table::toml_reader::{Choice, Key, Kind, Limit, Need, Section};
@@ -11,13 +11,14 @@ pub(in crate::scenario) static EXPERIMENT: Section = Section {
     header: "[[experiment]]",
     meaning: "At least once: a tool force, and torque limits",
     example: "[[experiment]]\nsection = \"1\"\ntitle = \"growing force\"\nforce = [10.0, [5.0, 2.0], 0.0]\n\
-              moment = [0.0, 0.0, 0.0]\nrated_torque = 300.0\n",
+              moment = [0.0, 0.0, 0.0]\nrated_torque = 300.0\nstep_time = 0.01\n",
     keys: &[
         &SECTION,
         &TITLE,
         &FORCE,
         &MOMENT,
         &RATED_TORQUE,
+        &STEP_TIME,
         &REFERENCES,
         &FIGURES,
     ],
@@ -74,6 +75,14 @@ pub(in crate::scenario) static RATED_TORQUE: Key = Key::required(
     "`rated_torque = \"table\"` or `rated_torque = 300.0`",
 )
 .limits(&[Limit::Within(&RATED)]);
+pub(in crate::scenario) static STEP_TIME: Key = Key::required(
+    "step_time",
+    Kind::Number,
+    "Delta t of Eq. 18 in this experiment",
+    "`step_time = 0.01`",
+)
+.limits(&[Limit::Within(&STEP_TIME_BOUND)])
+.need(Need::Optional("that of [failure] counts"));
 pub(in crate::scenario) static REFERENCES: Key = Key::required(
     "reference",
     Kind::Tables(&REFERENCE),

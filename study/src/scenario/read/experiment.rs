@@ -12,6 +12,7 @@ pub(in crate::scenario) struct ExperimentTable {
     pub(in crate::scenario) force: Option<Located<Vec<Option<Numbers>>>>,
     pub(in crate::scenario) moment: Option<Located<Vec<Option<Numbers>>>>,
     pub(in crate::scenario) rated_torque: Option<RatedTable>,
+    pub(in crate::scenario) step_time: Number,
     pub(in crate::scenario) references: Vec<ReferenceTable>,
     pub(in crate::scenario) figures: Vec<FigureTable>,
 }
@@ -83,6 +84,7 @@ fn read_experiment(fields: &mut Fields<'_>, owner: &str) -> ExperimentTable {
         rated_torque: fields
             .value(&format::RATED_TORQUE)
             .and_then(read_rated_torque),
+        step_time: number(fields.value(&format::STEP_TIME)),
         references: fields
             .value(&format::REFERENCES)
             .and_then(|value| value.items("a list, each under its own [[experiment.reference]]"))
