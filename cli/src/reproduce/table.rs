@@ -7,8 +7,8 @@ use comfy_table::{CellAlignment, Table};
 use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
 use ulna_study::scenario::{Experiment, Reference, Scenario};
 
-use super::Findings;
 use super::words::{name, seconds, significant, solve_status, what_locks};
+use super::{Findings, bounds, limited, plan_steps};
 
 /// Columns of a table of impacts, one for each method.
 const METHODS: [(SearchMethod, &str); 4] = [
@@ -51,11 +51,14 @@ pub(super) fn write(
         let exponent = exponent(&studies);
         writeln!(out, "\ncoefficients k_d of Eq. 16, in 1e{exponent}")?;
         writeln!(out, "{}", coefficients(experiment, &studies, exponent))?;
+        bounds::write(&studies, out)?;
+        limited::write(experiment, &findings.limited, out)?;
     }
     if let Some(experiment) = scenario.experiments().first() {
         writeln!(out, "\nsearches for {}", experiment.section())?;
         writeln!(out, "{}", searches(&findings.of_section(experiment)))?;
     }
+    plan_steps::write(&findings.plan_steps, out)?;
     if let Ok(truths) = &findings.truths {
         writeln!(
             out,
@@ -287,7 +290,7 @@ fn convergence(truths: &[Truth]) -> String {
 }
 
 /// Without lines; the columns `left` to the left, numbers to the right.
-fn plain(mut table: Table, left: &[usize]) -> String {
+pub(super) fn plain(mut table: Table, left: &[usize]) -> String {
     table.load_style(presets::NOTHING);
     for (index, column) in table.column_iter_mut().enumerate() {
         if !left.contains(&index) {

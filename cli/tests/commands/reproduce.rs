@@ -141,6 +141,8 @@ fn everything_is_printed_and_written() {
         "impact.csv",
         "search.csv",
         "frontier.csv",
+        "limits.csv",
+        "plan_steps.csv",
         "truth.csv",
         "convergence.csv",
     ];

@@ -92,6 +92,9 @@ pub struct Reference {
     pub(super) before: Vec<Option<f64>>,
     pub(super) after: Vec<Option<f64>>,
     pub(super) coefficients: Vec<Option<f64>>,
+    pub(super) free_after: Vec<Option<f64>>,
+    pub(super) decrease: Vec<Option<f64>>,
+    pub(super) mean_room: Option<f64>,
 }
 
 impl Reference {
@@ -118,5 +121,20 @@ impl Reference {
     /// The coefficients k_d, likewise.
     pub fn coefficients(&self) -> &[Option<f64>] {
         &self.coefficients
+    }
+
+    /// Impact torque with the compensation that no rated torque limits, N·m (N), likewise.
+    pub fn free_after(&self) -> &[Option<f64>] {
+        &self.free_after
+    }
+
+    /// By how much the rated torques lower the compensation, %, likewise.
+    pub fn decrease(&self) -> &[Option<f64>] {
+        &self.decrease
+    }
+
+    /// What the motion leaves of the rated torques, on the mean over it and over the joints of the reference, N·m (N).
+    pub fn mean_room(&self) -> Option<f64> {
+        self.mean_room
     }
 }

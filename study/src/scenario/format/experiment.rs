@@ -105,7 +105,7 @@ static REFERENCE: Section = Section {
     header: "[[experiment.reference]]",
     meaning: "Any number of times below an `[[experiment]]`",
     example: "[[experiment.reference]]\nsource = \"paper, Table 2\"\ntime = 5.0\njoints = [1, 2]\nbefore = [30.0, 60.0]\n\
-              after = [0.1, 0.1]\ncoefficients = [-1e7, -1e7]\n",
+              after = [0.1, 0.1]\ncoefficients = [-1e7, -1e7]\nfree_after = [0.01, 0.02]\ndecrease = [20.0, 60.0]\nmean_room = 250.0\n",
     keys: &[
         &SOURCE,
         &REFERENCE_TIME,
@@ -113,6 +113,9 @@ static REFERENCE: Section = Section {
         &BEFORE,
         &AFTER,
         &COEFFICIENTS,
+        &FREE_AFTER,
+        &DECREASE,
+        &MEAN_ROOM,
     ],
 };
 pub(in crate::scenario) static SOURCE: Key = Key::required(
@@ -150,6 +153,25 @@ pub(in crate::scenario) static COEFFICIENTS: Key = figures(
     "The coefficients k_d",
     "`coefficients = [1e7, -1e7]`",
 );
+
+pub(in crate::scenario) static FREE_AFTER: Key = figures(
+    "free_after",
+    "Impact torque with the compensation that no rated torque limits, N m (N)",
+    "`free_after = [0.01, 0.02]`",
+);
+pub(in crate::scenario) static DECREASE: Key = figures(
+    "decrease",
+    "By how much the rated torques lower the compensation, %",
+    "`decrease = [20.0, 60.0]`",
+);
+pub(in crate::scenario) static MEAN_ROOM: Key = Key::required(
+    "mean_room",
+    Kind::Number,
+    "What the motion leaves of the rated torques, on the mean over it and over these joints, N m (N)",
+    "`mean_room = 250.0`",
+)
+.limits(PRINTED)
+.need(Need::Optional("there is no figure"));
 
 const PRINTED: &[Limit] = &[Limit::Within(&FIGURE_BOUND)];
 

@@ -44,6 +44,9 @@ pub(in crate::scenario) struct ReferenceTable {
     pub(in crate::scenario) before: List,
     pub(in crate::scenario) after: List,
     pub(in crate::scenario) coefficients: List,
+    pub(in crate::scenario) free_after: List,
+    pub(in crate::scenario) decrease: List,
+    pub(in crate::scenario) mean_room: Number,
 }
 
 /// `[[experiment.figure]]`
@@ -139,6 +142,9 @@ fn read_reference(fields: &mut Fields<'_>, _: &str) -> ReferenceTable {
         before: list(fields.value(&format::BEFORE)),
         after: list(fields.value(&format::AFTER)),
         coefficients: list(fields.value(&format::COEFFICIENTS)),
+        free_after: list(fields.value(&format::FREE_AFTER)),
+        decrease: list(fields.value(&format::DECREASE)),
+        mean_room: number(fields.value(&format::MEAN_ROOM)),
     }
 }
 

@@ -239,12 +239,23 @@ impl Reader<'_> {
             spread(&table.after, &format::AFTER),
         );
         let coefficients = spread(&table.coefficients, &format::COEFFICIENTS);
+        let (free_after, decrease) = (
+            spread(&table.free_after, &format::FREE_AFTER),
+            spread(&table.decrease, &format::DECREASE),
+        );
+        let mean_room = match &table.mean_room {
+            None => Some(None),
+            written => self.bounded(written, &format::MEAN_ROOM).map(Some),
+        };
         Some(Reference {
             source: table.source.clone(),
             time: time?,
             before: before?,
             after: after?,
             coefficients: coefficients?,
+            free_after: free_after?,
+            decrease: decrease?,
+            mean_room: mean_room?,
         })
     }
 }
