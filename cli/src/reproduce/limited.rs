@@ -40,7 +40,7 @@ pub(super) fn write(
             let there = joints.filter_map(|(joint, (before, room))| before.map(|_| (joint, room)));
             let (joints, there): (Vec<_>, Vec<_>) = there.unzip();
             let mean = |of: fn(&LimitedJoint) -> f64| {
-                let sum: f64 = there.iter().map(|joint| of(joint)).sum();
+                let sum: f64 = there.iter().copied().map(of).sum();
                 significant(sum / there.len() as f64)
             };
             writeln!(

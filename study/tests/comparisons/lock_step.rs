@@ -2,6 +2,7 @@
 
 use ulna::nalgebra::Vector6;
 use ulna_study::experiment::{Campaign, SearchMethod};
+use ulna_study::scenario::Experiment;
 
 use crate::{TIMES, runner, scenario};
 use ulna_generated::Ssrms;
@@ -35,9 +36,7 @@ fn an_experiment_has_the_step_time_of_the_failure_unless_it_has_its_own() {
     let times = |edits: &[(&str, &str)]| {
         let scenario = scenario(edits);
         let experiments = scenario.experiments().iter();
-        experiments
-            .map(|experiment| experiment.step_time())
-            .collect::<Vec<_>>()
+        experiments.map(Experiment::step_time).collect::<Vec<_>>()
     };
     assert_eq!(times(&[]), [0.0, 0.0, 0.01]);
     assert_eq!(

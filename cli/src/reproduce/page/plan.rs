@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use ulna::ProfileShape;
-use ulna_study::experiment::{PlanSteps, PlannedTorques};
+use ulna_study::experiment::{PlanSteps, PlannedTorques, TorqueStep};
 
 use crate::reproduce::plan_steps::{ROUNDING, word};
 use crate::reproduce::words::significant;
@@ -52,12 +52,12 @@ pub(super) fn write(page: &mut String, found: &PlanSteps) -> fmt::Result {
     let smooth: Vec<_> = others
         .filter_map(|profile| {
             let torques = profile.torques.as_ref().ok()?;
-            let step = torques.largest_of_plan().map_or(0.0, |step| step.norm());
+            let step = torques.largest_of_plan().map_or(0.0, TorqueStep::norm);
             (step <= ROUNDING).then_some((profile.shape, torques))
         })
         .collect();
     let slope = torques.steepest_norm;
-    let own_step = torques.largest_of_plan().map_or(0.0, |step| step.norm());
+    let own_step = torques.largest_of_plan().map_or(0.0, TorqueStep::norm);
     if own_step > ROUNDING && !smooth.is_empty() {
         let named: Vec<_> = smooth
             .iter()
