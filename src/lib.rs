@@ -71,7 +71,9 @@ pub use control::compensation::{
     Compensation, Controller, Cycle, Law, OnLine, Projector, Status, Weighting,
 };
 pub use control::failure::{Failure, LockedJoints};
-pub use control::trajectory::{JointLimits, JointState, Trajectory, Trapezoid};
+pub use control::trajectory::{
+    JointLimits, JointState, PointToPoint, Profile, ProfileShape, Trajectory, Trapezoid,
+};
 pub use generic::SerialChain;
 pub use kernels::Unrolled;
 pub use kernels::batch::{ArmBatch, LengthMismatch};

@@ -4,26 +4,25 @@ use nalgebra::{SMatrix, SVector, Vector6};
 
 use ulna::Arm;
 use ulna::control::null_space::{NEAR_SINGULAR, NullSpace};
-use ulna::control::trajectory::{
-    JointLimits, JointState, Trajectory, TrajectoryError, TrapezoidProfile,
-};
+use ulna::control::trajectory::{JointLimits, JointState, Profile, Trajectory, TrajectoryError};
 
 /// The tool moved along a straight line, joint rates resolved as `q̇ = J†v` over the task's rows
-/// (Siciliano et al., Robotics: Modelling, Planning and Control, 3.5.1), with a trapezoidal speed.
+/// (Siciliano et al., Robotics: Modelling, Planning and Control, 3.5.1), along a [`Profile`].
 ///
-/// Knots are integrated by the classical fourth-order Runge–Kutta rule; between knots a quintic takes over
+/// Knots are integrated along the path by the classical fourth-order Runge–Kutta rule; between knots a quintic takes over
 /// position, velocity and acceleration of both, so that the three stay each other's derivatives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToolPath<const N: usize> {
-    profile: TrapezoidProfile,
-    /// Speeding up, cruising, slowing down: the acceleration jumps between them, so none shares a knot.
-    phases: [Phase<N>; 3],
+    profile: Profile,
+    /// Those of the profile: acceleration or jerk jumps between them, so none shares a knot. At least one.
+    phases: Vec<Phase<N>>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 struct Phase<const N: usize> {
     start: f64,
     step: f64,
+    /// At least two.
     knots: Vec<JointState<N>>,
 }
 
@@ -32,18 +31,20 @@ struct Phase<const N: usize> {
 pub struct StraightLine {
     /// `[translation; rotation vector]`, world axes, m and rad; only the task's rows are followed.
     pub displacement: Vector6<f64>,
-    /// The whole motion, s.
-    pub duration: f64,
-    /// Speeding up and slowing down, s each.
-    pub blend: f64,
+    /// How the tool speeds up and slows down.
+    pub profile: Profile,
     /// The largest time between two knots, s.
     pub knot_period: f64,
 }
 
+/// Below this share of the motion a phase is rounding of its ends, and left to its neighbour.
+const NO_PHASE: f64 = 1e-12;
+
 impl<const N: usize> ToolPath<N> {
     /// Moves the tool of `arm` from its place at `start` along `line`.
     ///
-    /// Refuses lines that make no motion, poses with a conditioning below [`NEAR_SINGULAR`], and joint rates beyond `limits`.
+    /// Refuses lines that make no motion, poses with a conditioning below [`NEAR_SINGULAR`], and joint rates beyond `limits`:
+    /// velocities and accelerations at the knots, the jerk on the mean from knot to knot.
     pub fn straight(
         arm: &(impl Arm<N> + ?Sized),
         start: &SVector<f64, N>,
@@ -56,78 +57,127 @@ impl<const N: usize> ToolPath<N> {
         if !line.displacement.iter().all(|x| x.is_finite()) {
             return Err(TrajectoryError::NotFinite("displacement"));
         }
-        let profile = TrapezoidProfile::new(line.duration, line.blend)?;
-        let knots = line.duration / line.knot_period;
+        let profile = line.profile;
+        let knots = profile.duration() / line.knot_period;
         if !(knots > 0.0 && knots <= 1e6) {
             return Err(TrajectoryError::KnotPeriod(line.knot_period));
         }
-        let (blend, cruise) = (line.blend, line.duration - 2.0 * line.blend);
-        let acceleration = profile.acceleration();
         let resolver = Resolver {
             arm,
             displacement: line.displacement,
+            profile,
             limits,
         };
         let mut q = *start;
-        let mut phase = |start: f64, length: f64, acceleration: f64| {
+        let mut phases: Vec<Phase<N>> = Vec::new();
+        let ends: Vec<f64> = profile.phase_ends().collect();
+        for pair in ends.windows(2) {
+            let (start, end) = (pair[0], pair[1]);
+            let length = end - start;
+            if length <= NO_PHASE * profile.duration() {
+                continue;
+            }
             let steps = (length / line.knot_period).ceil().max(1.0);
-            let speed = profile.at(start).1;
-            let phase = resolver.phase(
-                q,
-                start,
-                length / steps,
-                steps as usize,
-                speed,
-                acceleration,
-            )?;
+            let phase = resolver.phase(q, start, end, steps)?;
             if let Some(last) = phase.knots.last() {
                 q = last.q;
             }
-            Ok(phase)
-        };
-        Ok(Self {
-            profile,
-            phases: [
-                phase(0.0, blend, acceleration)?,
-                phase(blend, cruise, 0.0)?,
-                phase(blend + cruise, blend, -acceleration)?,
-            ],
-        })
+            phases.push(phase);
+        }
+        let path = Self { profile, phases };
+        path.admit_jerk(limits)?;
+        Ok(path)
+    }
+
+    /// How the tool speeds up and slows down.
+    pub fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// The planned state at `time`, s; where q̈ jumps, with its value before the jump.
+    pub fn state_before(&self, time: f64) -> JointState<N> {
+        let [first, last] = self.ends();
+        if time <= 0.0 {
+            JointState::at_rest(first.q)
+        } else if time > self.profile.duration() {
+            JointState::at_rest(last.q)
+        } else {
+            self.phase(|phase| time > phase.start).state(time)
+        }
+    }
+
+    /// The first and the last knot.
+    fn ends(&self) -> [&JointState<N>; 2] {
+        let last = &self.phases[self.phases.len() - 1].knots;
+        [&self.phases[0].knots[0], &last[last.len() - 1]]
+    }
+
+    /// The last of the phases that have `begun`.
+    fn phase(&self, begun: impl Fn(&Phase<N>) -> bool) -> &Phase<N> {
+        let found = self.phases.iter().rev().find(|phase| begun(phase));
+        found.unwrap_or(&self.phases[0])
+    }
+
+    fn admit_jerk(&self, limits: &JointLimits<N>) -> Result<(), TrajectoryError> {
+        if limits.jerk.iter().all(|limit| *limit == f64::INFINITY) {
+            return Ok(());
+        }
+        for phase in &self.phases {
+            if self.profile.peak_jerk() == f64::INFINITY {
+                // The tool's acceleration jumps, and with it that of every joint that moves for it.
+                let jump = self.state_before(phase.start).qdd - phase.knots[0].qdd;
+                let jerk = jump.map(|jump| if jump == 0.0 { 0.0 } else { f64::INFINITY });
+                limits.admit_jerk(&jerk, phase.start)?;
+            }
+            for (i, pair) in phase.knots.windows(2).enumerate() {
+                let jerk = (pair[1].qdd - pair[0].qdd) / phase.step;
+                limits.admit_jerk(&jerk, phase.start + phase.step * (i as f64 + 0.5))?;
+            }
+        }
+        Ok(())
     }
 }
 
 struct Resolver<'a, A: ?Sized, const N: usize> {
     arm: &'a A,
     displacement: Vector6<f64>,
+    profile: Profile,
     limits: &'a JointLimits<N>,
 }
 
 impl<A: Arm<N> + ?Sized, const N: usize> Resolver<'_, A, N> {
-    /// `steps` + 1 knots from `q` at the time `start`, with the path's speed growing by `acceleration`.
+    /// `steps` + 1 knots from `q` at the time `start` to `end`.
     fn phase(
         &self,
         mut q: SVector<f64, N>,
         start: f64,
-        step: f64,
-        steps: usize,
-        speed: f64,
-        acceleration: f64,
+        end: f64,
+        steps: f64,
     ) -> Result<Phase<N>, TrajectoryError> {
+        let step = (end - start) / steps;
+        let steps = steps as usize;
         let mut knots = Vec::with_capacity(steps + 1);
-        let speed_at = |elapsed: f64| speed + acceleration * elapsed;
-        knots.push(self.knot(q, start, speed, acceleration)?);
+        knots.push(self.knot(q, start, self.profile.at(start))?);
         for i in 0..steps {
-            let elapsed = step * i as f64;
-            let rate = |q: SVector<f64, N>, elapsed: f64| {
-                self.rate(&q, start + elapsed, speed_at(elapsed))
+            let from = start + step * i as f64;
+            let last = i + 1 == steps;
+            let to = if last { end } else { from + step };
+            // At the phase's end its own acceleration, not that of the next one.
+            let point = if last {
+                self.profile.just_before(end)
+            } else {
+                self.profile.at(to)
             };
-            let k1 = rate(q, elapsed)?;
-            let k2 = rate(q + k1 * (0.5 * step), elapsed + 0.5 * step)?;
-            let k3 = rate(q + k2 * (0.5 * step), elapsed + 0.5 * step)?;
-            let k4 = rate(q + k3 * step, elapsed + step)?;
-            q += (k1 + (k2 + k3) * 2.0 + k4) * (step / 6.0);
-            let elapsed = elapsed + step;
-            knots.push(self.knot(q, start + elapsed, speed_at(elapsed), acceleration)?);
+            // Along the path instead of over time: what is integrated does not know the profile, nor suffers from it.
+            let way = point.0 - self.profile.at(from).0;
+            let slope = |q: SVector<f64, N>, time: f64| self.rate(&q, time, 1.0);
+            let middle = 0.5 * (from + to);
+            let k1 = slope(q, from)?;
+            let k2 = slope(q + k1 * (0.5 * way), middle)?;
+            let k3 = slope(q + k2 * (0.5 * way), middle)?;
+            let k4 = slope(q + k3 * way, to)?;
+            q += (k1 + (k2 + k3) * 2.0 + k4) * (way / 6.0);
+            knots.push(self.knot(q, to, point)?);
         }
         Ok(Phase { start, step, knots })
     }
@@ -151,8 +201,7 @@ impl<A: Arm<N> + ?Sized, const N: usize> Resolver<'_, A, N> {
         &self,
         q: SVector<f64, N>,
         time: f64,
-        speed: f64,
-        acceleration: f64,
+        (_, speed, acceleration): (f64, f64, f64),
     ) -> Result<JointState<N>, TrajectoryError> {
         let qd = self.rate(&q, time, speed)?;
         let null_space = NullSpace::new(&self.arm.geometric_jacobian(&q), self.arm.task());
@@ -166,7 +215,8 @@ impl<A: Arm<N> + ?Sized, const N: usize> Resolver<'_, A, N> {
         let multiplier = null_space.static_wrench(&qd);
         let qdd = null_space.resolve(&(self.displacement * acceleration - jacobian_rate * qd))
             + null_space.project(&jacobian_rate.tr_mul(&multiplier));
-        self.limits.admit(&qd, &qdd, time)?;
+        self.limits.admit_velocity(&qd, time)?;
+        self.limits.admit_acceleration(&qdd, time)?;
         Ok(JointState { q, qd, qdd })
     }
 }
@@ -177,28 +227,20 @@ impl<const N: usize> Trajectory<N> for ToolPath<N> {
     }
 
     fn state(&self, time: f64) -> JointState<N> {
-        let [first, _, last] = &self.phases;
+        let [first, last] = self.ends();
         if time < 0.0 {
-            return JointState::at_rest(first.knots[0].q);
+            JointState::at_rest(first.q)
+        } else if time >= self.profile.duration() {
+            JointState::at_rest(last.q)
+        } else {
+            self.phase(|phase| time >= phase.start).state(time)
         }
-        if time >= self.profile.duration() {
-            return JointState::at_rest(last.knots[last.knots.len() - 1].q);
-        }
-        let phase = self
-            .phases
-            .iter()
-            .rev()
-            .find(|phase| time >= phase.start)
-            .unwrap_or(first);
-        phase.state(time - phase.start)
     }
 }
 
 impl<const N: usize> Phase<N> {
-    fn state(&self, elapsed: f64) -> JointState<N> {
-        if self.step <= 0.0 {
-            return self.knots[0];
-        }
+    fn state(&self, time: f64) -> JointState<N> {
+        let elapsed = time - self.start;
         let interval = ((elapsed / self.step) as usize).min(self.knots.len() - 2);
         let from_knot = elapsed - interval as f64 * self.step;
         quintic(

@@ -218,7 +218,7 @@ fn rated_torques_bind_and_are_kept() {
                 assert!(case.rollout.status < Status::Overloaded);
             }
         }
-        assert!(bound >= 4, "{section}: {bound}");
+        assert!(bound >= 3, "{section}: {bound}");
     }
     // What binds costs suppression.
     let (free, bound) = (
@@ -233,7 +233,7 @@ fn the_papers_rated_torque_is_out_of_reach() {
     let scenario = scenario(&[
         ("cycle = 0.01", "cycle = 0.5"),
         (
-            "rated_torque = [300.0, 300.0, 350.0, 410.0, 50.0, 50.0, 50.0]",
+            "rated_torque = [700.0, 350.0, 400.0, 412.0, 32.0, 38.0, 50.0]",
             "rated_torque = 300.0",
         ),
     ]);
@@ -251,11 +251,15 @@ fn the_papers_rated_torque_is_out_of_reach() {
 
 #[test]
 fn a_varying_force_does_not_change_the_impact_of_a_lock_in_no_time() {
+    let instant = scenario(&[
+        ("cycle = 0.01", "cycle = 0.5"),
+        ("step_time = 0.01 ", "step_time = 0.0 "),
+    ]);
+    let runner = ExperimentRunner::new(&Ssrms, &instant).unwrap();
     for time in TIMES {
-        let (constant, varying) = (
-            case("5.2", time, SearchMethod::PerJoint),
-            case("5.4", time, SearchMethod::PerJoint),
-        );
+        let constant = case("5.2", time, SearchMethod::PerJoint);
+        let varying = runner.study(&instant.experiments()[2], time).unwrap();
+        let varying = varying.case(SearchMethod::PerJoint);
         for (a, b) in constant.impact_before.iter().zip(&varying.impact_before) {
             assert!((a - b).abs() < 1e-9);
         }
@@ -274,7 +278,7 @@ fn series_show_the_lock_from_both_sides() {
                 .iter()
                 .position(|time| *time == case.failure_time)
                 .unwrap();
-            assert_eq!(series.time[lock + 1], case.failure_time);
+            assert_eq!(series.time[lock + 1], case.failure_time + case.step_time);
             assert!(series.time.is_sorted());
             let rows = [&series.planned, &series.torque];
             assert!(

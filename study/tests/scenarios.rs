@@ -4,7 +4,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use ulna::nalgebra::Vector6;
-use ulna::{SerialChain, Trajectory};
+use ulna::{ProfileShape, SerialChain, Trajectory};
 use ulna_study::Scenario;
 use ulna_study::scenario::{KnownArm, MotionPath, ScenarioArm, ScenarioErrors, ToolForce};
 use ulna_table::Model;
@@ -249,6 +249,46 @@ fn times_and_steps() {
             "[[experiment]]",
             "[[experiment]]\nsection = \"5.2\"\nforce = [0, 0, 0]\nrated_torque = \"table\"\n[[experiment]]",
         ),
+    ]);
+    insta::assert_snapshot!(messages);
+}
+
+#[test]
+fn profiles_and_lock_steps() {
+    let s_curve = |jerk_time: &str| {
+        let written = format!("profile = \"s_curve\"\n{jerk_time}");
+        let scenario = parse(&edited(&[("profile = \"trapezoid\"", &written)])).unwrap();
+        scenario.motion().profile().shape()
+    };
+    assert_eq!(s_curve(""), ProfileShape::s_curve(4.455));
+    assert_eq!(
+        s_curve("jerk_time = 1.0"),
+        ProfileShape::SCurve { jerk_time: 1.0 }
+    );
+    // A scenario that does not say has a trapezoid.
+    let unsaid = parse(&edited(&[("profile = \"trapezoid\"", "")])).unwrap();
+    assert_eq!(unsaid, parse(PAPER_LIKE).unwrap());
+    let messages = messages(&[
+        ("profile = \"trapezoid\"", "profile = \"trapezoidal\""),
+        (
+            "profile = \"trapezoid\"",
+            "profile = \"quintic\"\njerk_time = 1.0",
+        ),
+        (
+            "profile = \"trapezoid\"",
+            "profile = \"s_curve\"\njerk_time = 2.3",
+        ),
+        ("[failure]", "max_jerk = [0, 1, 1, 1, 1, 1, 1]\n[failure]"),
+        ("step_time = 0.0 ", "step_time = 2.5 "),
+        ("step_time = 0.01 ", "step_time = -0.01 "),
+        ("step_time = 0.01 ", "step_time = 3 "),
+        ("force_step = [0.0, 0.0, 0.0]", "force_step = [0.0, 1.0]"),
+        (
+            "force_step = [0.0, 0.0, 0.0]",
+            "moment_step = [0.0, 1.0, 1e8]",
+        ),
+        ("decrease = [21.58, 67.57, 56.84]", "decrease = [21.58]"),
+        ("mean_room = 254.18", "mean_room = true"),
     ]);
     insta::assert_snapshot!(messages);
 }

@@ -1,8 +1,11 @@
 //! `ulna reproduce`: the experiments of a scenario.
 
+mod bounds;
 mod csv;
 mod drawings;
+mod limited;
 mod page;
+mod plan_steps;
 mod results;
 mod table;
 pub(crate) mod words;
@@ -13,7 +16,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::*;
 use ulna_study::Scenario;
-use ulna_study::experiment::{AnyArm, ExperimentError, ExperimentRunner, Study, Truth};
+use ulna_study::experiment::{
+    AnyArm, ExperimentError, ExperimentRunner, LimitedSuppression, PlanSteps, Study, Truth,
+};
 use ulna_study::scenario::{Experiment, ScenarioErrors};
 
 use crate::arms::{ForArm, GENERATED, with_arm};
@@ -86,6 +91,10 @@ struct Findings {
     studies: Vec<Study>,
     /// The first experiment simulated, at every failure time; `Err` if that cannot be.
     truths: Result<Vec<Truth>, ExperimentError>,
+    /// The steps of the plan under the force of the first experiment, whatever locks.
+    plan_steps: PlanSteps,
+    /// What rated torques cost, for every experiment that has them, at every failure time at which they can be kept.
+    limited: Vec<LimitedSuppression>,
 }
 
 impl Findings {
@@ -112,7 +121,9 @@ impl ForArm for Work<'_> {
         let runner = ExperimentRunner::new(arm, self.0)?;
         let study = |experiment: &Experiment, time| runner.study(experiment, time);
         let truth = |experiment: &Experiment, time| runner.truth(experiment, time);
-        explore(self.0, &study, &truth)
+        let limited = |experiment: &Experiment, time| runner.limited(experiment, time);
+        let plan_steps = runner.plan_steps(&self.0.experiments()[0]);
+        explore(self.0, plan_steps, &study, &truth, &limited)
     }
 }
 
@@ -122,8 +133,10 @@ type Attempt<'l, T> = dyn Fn(&Experiment, f64) -> Result<T, ExperimentError> + S
 /// Everything that is asked of a runner, side by side. Apart from it, so that this is not compiled for each number of joints.
 fn explore(
     scenario: &Scenario,
+    plan_steps: PlanSteps,
     study: &Attempt<'_, Study>,
     truth: &Attempt<'_, Truth>,
+    limited: &Attempt<'_, Option<LimitedSuppression>>,
 ) -> Result<Findings, ExperimentError> {
     let (experiments, failure_times) = (scenario.experiments(), scenario.failure_times());
     let pairs = experiments.iter().flat_map(|experiment| {
@@ -132,6 +145,10 @@ fn explore(
     });
     // Each stands by itself, and the order of the results is that of the pairs.
     let pairs: Vec<_> = pairs.collect();
+    let limited = pairs
+        .par_iter()
+        .filter_map(|(experiment, time)| limited(experiment, *time).transpose());
+    let limited = limited.collect::<Result<_, _>>()?;
     let studies = pairs
         .into_par_iter()
         .map(|(experiment, time)| study(experiment, time));
@@ -141,5 +158,7 @@ fn explore(
     Ok(Findings {
         studies: studies.collect::<Result<_, _>>()?,
         truths: truths.collect(),
+        plan_steps,
+        limited,
     })
 }

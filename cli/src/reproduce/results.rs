@@ -5,7 +5,7 @@ use ulna_study::Scenario;
 use ulna_study::experiment::Case;
 
 use super::words::{name, status};
-use super::{Findings, csv};
+use super::{Findings, csv, limited, plan_steps};
 use crate::output::Files;
 
 /// `results.json`. Its cases are the exact ones; those of the search in steps are in `search.csv` and `impact.csv`.
@@ -75,6 +75,8 @@ pub(super) fn add(
     files.add("impact.csv", csv::impacts(cases.clone())?);
     files.add("search.csv", csv::searches(cases)?);
     files.add("frontier.csv", csv::frontiers(studies)?);
+    files.add("limits.csv", limited::csv(&findings.limited)?);
+    files.add("plan_steps.csv", plan_steps::csv(&findings.plan_steps)?);
     if let Ok(truths) = &findings.truths {
         files.add("truth.csv", csv::truth(truths)?);
         files.add("convergence.csv", csv::convergence(truths)?);

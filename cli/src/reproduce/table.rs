@@ -6,8 +6,8 @@ use comfy_table::Table;
 use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
 use ulna_study::scenario::{Experiment, Reference, Scenario};
 
-use super::Findings;
 use super::words::{name, seconds, significant, solve_status, what_locks};
+use super::{Findings, bounds, limited, plan_steps};
 use crate::columns::plain;
 
 /// Columns of a table of impacts, one for each method.
@@ -51,11 +51,14 @@ pub(super) fn write(
         let exponent = exponent(&studies);
         writeln!(out, "\ncoefficients k_d of Eq. 16, in 1e{exponent}")?;
         writeln!(out, "{}", coefficients(experiment, &studies, exponent))?;
+        bounds::write(&studies, out)?;
+        limited::write(experiment, &findings.limited, out)?;
     }
     if let Some(experiment) = scenario.experiments().first() {
         writeln!(out, "\nsearches for {}", experiment.section())?;
         writeln!(out, "{}", searches(&findings.of_section(experiment)))?;
     }
+    plan_steps::write(&findings.plan_steps, out)?;
     if let Ok(truths) = &findings.truths {
         writeln!(
             out,

@@ -141,6 +141,8 @@ fn everything_is_printed_and_written() {
         "impact.csv",
         "search.csv",
         "frontier.csv",
+        "limits.csv",
+        "plan_steps.csv",
         "truth.csv",
         "convergence.csv",
     ];
@@ -157,6 +159,14 @@ fn everything_is_printed_and_written() {
     figures_are_whole(&output);
     // Whatever the page points to is there.
     let page = fs::read_to_string(output.join("README.md")).unwrap();
+    let (_, plan) = page.split_once("## The plan's own steps\n").unwrap();
+    for sentence in [
+        "by up to 483.2 N·m (norm over all joints, at 20 s), 6.4 times the largest step of a lock, 75.34 N·m at 10 s.",
+        "takes the plan's steps away, for steeper slopes within the blends",
+        "at 10 s 75.34 N·m becomes 75.34 with `quintic` and 75.34 with `s_curve`.",
+    ] {
+        assert!(plan.contains(sentence), "{sentence} is missing in:\n{plan}");
+    }
     let links = page.split("](").skip(1);
     let links: Vec<_> = links.filter_map(|rest| rest.split(')').next()).collect();
     assert_eq!(links.len(), FIGURES.len());
@@ -191,7 +201,41 @@ fn tables_stand_beside_the_papers(out: &str) {
         "{out}"
     );
     assert!(out.contains("with ever shorter brakes"), "{out}");
+    what_rated_torques_cut_is_printed(out);
+    the_plans_steps_stand_beside_the_locks(out);
     assert!(!out.contains(" \n"), "blanks at the end of a line:\n{out}");
+}
+
+/// Of Section 5.3, with the paper's Table 3 below each joint of it.
+fn what_rated_torques_cut_is_printed(out: &str) {
+    let (_, cut) = out.split_once("that rated torques cut\n").unwrap();
+    assert_eq!(row(cut, "10 s      4")[4..], ["s", "75.6", "%"]);
+    assert_eq!(row(cut, "10 s      6")[2], "upper");
+    let (_, cost) = out
+        .split_once("what the rated torques cost at 10 s")
+        .unwrap();
+    assert!(cost.starts_with(": Eq. 16 without and with them; below: paper, Table 3"));
+    let ours = row(cost, "4 ");
+    assert_eq!(ours[ours.len() - 4..], ["75.63", "%", "24.37", "%"]);
+    let theirs = row(cost, "there ");
+    assert_eq!(
+        theirs.join(" "),
+        "1.240 0.00580 99.53 % 0.2684 78.35 % 21.58 %"
+    );
+    let mean = row(cost, "mean tau^e of joints 4, 5 and 6:").join(" ");
+    assert!(
+        mean.starts_with("10") && mean.ends_with(" N m, of 160.7 N m rated; there 254.2"),
+        "{mean}"
+    );
+}
+
+fn the_plans_steps_stand_beside_the_locks(out: &str) {
+    let (_, steps) = out.split_once("steps of the planned torque").unwrap();
+    assert_eq!(row(steps, "trapezoid ")[..3], ["483.2", "20", "s"]);
+    for profile in ["quintic ", "s_curve "] {
+        assert_eq!(row(steps, profile)[0], "0");
+    }
+    assert_eq!(row(steps, "quintic ").last(), Some(&"75.34"));
 }
 
 fn results_are_as_promised(output: &Path) {

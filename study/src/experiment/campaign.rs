@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::{SVector, Vector6};
 
 use super::{AnyArm, ExperimentError};
-use crate::scenario::Scenario;
+use crate::scenario::{Experiment, Scenario};
 use crate::search::{
     ForcePriority, Objective, Operation, OperationOptions, SearchError, cancel_per_joint,
     least_impact, optimal,
@@ -119,6 +119,8 @@ impl<'a, const N: usize> Campaign<'a, N> {
         let options = OperationOptions {
             sample_period: motion.duration() / Self::SAMPLES,
             rated_torque: rated.map_or(Ok(no_limit), super::rated_torque)?,
+            step_time: rated.map_or(0.0, Experiment::step_time),
+            wrench_step: rated.map_or(Vector6::zeros(), |first| first.force().lock_step),
             ..OperationOptions::default()
         };
         let failure = Failure { joints, time };

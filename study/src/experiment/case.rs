@@ -1,6 +1,6 @@
 //! [`Case`]: what came of one experiment, one failure time and one [`SearchMethod`].
 
-use super::{ForceKept, Rollout};
+use super::{CoefficientBound, ForceKept, Rollout};
 use crate::search::{SearchError, SolveStatus, WorseJoint, worse_joints};
 use ulna::Law;
 
@@ -55,6 +55,8 @@ pub struct Case {
     pub failed_joints: Vec<usize>,
     /// When, s.
     pub failure_time: f64,
+    /// Δt of Eq. 18, s.
+    pub step_time: f64,
     /// The rated torques kept, N·m (N); infinite where a joint has none, `None` if none has.
     pub rated_torque: Option<Vec<f64>>,
     /// |Δτ̃_i| without compensation, N·m (N).
@@ -64,6 +66,8 @@ pub struct Case {
     /// The diagonal of k_d. [`Law::Optimal`] has none: for it those of Eq. 16 that would change the step at the lock alike
     /// ([`equivalent_per_joint`](crate::search::equivalent_per_joint)).
     pub coefficients: Vec<f64>,
+    /// What keeps each coefficient of Eq. 16 from cancelling its joint's step; `None` where nothing does, and for the other laws.
+    pub bounds: Vec<Option<CoefficientBound>>,
     /// h of Eq. 13 at the lock, the larger norm of just before and just after, N (with the moments' N·m, if the task has any).
     pub force_error: f64,
     /// How the search ended; `Err` if there is nothing that keeps the limits, and no compensation then.

@@ -1,13 +1,16 @@
 //! Section 5 of the paper as a library: a [`Scenario`](crate::Scenario) in, the cases with their series out.
 //!
-//! A *case* is one experiment, one failure time, one way to find a compensation. The impact is that of Eq. 18 for
-//! ever shorter control cycles; extremes and series are those of a [`Controller`](ulna::Controller) that executes the whole motion cycle by cycle.
+//! A *case* is one experiment, one failure time, one way to find a compensation. The impact is that of Eq. 18, by default with
+//! Δt = 0; extremes and series are those of a [`Controller`](ulna::Controller) that executes the whole motion cycle by cycle.
 //! Results carry plain lists, one entry for each joint, so that tables and figures need not know how many there are.
 
 mod ablation;
+mod bound;
 mod campaign;
 mod case;
 mod force_kept;
+mod limited;
+mod plan_steps;
 mod rollout;
 mod runner;
 mod truth;
@@ -20,9 +23,12 @@ use crate::simulation::{Ending, SimulationError};
 use ulna::Arm;
 
 pub use ablation::{Ablation, AblationOutcome, AblationRow, Variant};
+pub use bound::{BoundSide, CoefficientBound};
 pub use campaign::{Campaign, CampaignCase, CampaignResult};
 pub use case::{Case, Search, SearchMethod, Study, Tradeoff};
 pub use force_kept::{ForceKept, Verdict};
+pub use limited::{LimitedJoint, LimitedSuppression};
+pub use plan_steps::{PlanSteps, PlannedTorques, ProfileSteps, TorqueStep};
 pub use rollout::{Rollout, Series};
 pub use runner::ExperimentRunner;
 pub use truth::{BrakeImpulse, Truth, TruthRun};

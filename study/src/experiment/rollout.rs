@@ -24,7 +24,8 @@ pub struct Rollout {
 /// Quantities over time: one row for each time, in it one entry for each joint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
-    /// s. t_f is there twice: with all joints moving, and with the failed ones locked.
+    /// s. Of the lock there are two rows, one after the other: t_f with all joints moving,
+    /// and t_f + Δt (Eq. 18; often t_f again) with the failed ones locked.
     pub time: Vec<f64>,
     /// Torque without compensation, N·m (N).
     pub planned: Vec<Vec<f64>>,
@@ -41,13 +42,16 @@ impl Rollout {
     const SERIES: f64 = 400.0;
 
     /// Flies `motion` with `failure` in it, one call of `controller` every `cycle` s, the tool exerting `force`.
+    /// From t_f for `step_time` s, the Δt of Eq. 18, no torque is asked for.
     pub fn execute<const N: usize>(
         controller: &Controller<'_, AnyArm<N>, N>,
         motion: &PlannedMotion<N>,
         force: &ToolForce,
         failure: &Failure<N>,
+        step_time: f64,
         cycle: f64,
     ) -> Self {
+        let after = failure.time + step_time;
         let last = (motion.duration() / cycle).floor() as u64;
         let every = ((last as f64 / Self::SERIES) as u64).max(1);
         let mut record = Record::new();
@@ -56,20 +60,13 @@ impl Rollout {
             let time = cycle * i as f64;
             if time >= failure.time && locked.is_empty() {
                 // The lock falls between two cycles, or on one: both of its sides are executed.
-                for side in [LockedJoints::NONE, failure.joints] {
+                for (time, side) in [(failure.time, LockedJoints::NONE), (after, failure.joints)] {
                     locked = side;
-                    record.run(
-                        controller,
-                        motion,
-                        force,
-                        failure,
-                        (failure.time, side),
-                        true,
-                    );
+                    record.run(controller, motion, force, failure, (time, side), true);
                 }
-                if time == failure.time {
-                    continue;
-                }
+            }
+            if !locked.is_empty() && time <= after {
+                continue;
             }
             let kept = i % every == 0 || i == last;
             record.run(controller, motion, force, failure, (time, locked), kept);
@@ -109,12 +106,11 @@ impl<const N: usize> Record<N> {
         (time, locked): (f64, LockedJoints<N>),
         kept: bool,
     ) {
-        let state = if locked.is_empty() {
-            motion.state(time)
+        let (state, wrench) = if locked.is_empty() {
+            (motion.state(time), force.at(time))
         } else {
-            failure.state(motion, time)
+            (failure.state(motion, time), force.after_lock(time))
         };
-        let wrench = force.at(time);
         let cycle: Cycle<N> = controller.cycle(&state, &wrench, locked);
         self.status = self.status.max(cycle.status);
         self.max_torque = self.max_torque.sup(&locked.without(&cycle.torque).abs());

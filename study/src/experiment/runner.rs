@@ -4,6 +4,7 @@ use std::fmt;
 
 use nalgebra::SVector;
 
+use super::bound::bounds;
 use super::{
     AnyArm, Case, ExperimentError, ForceKept, KNOT_PERIOD, Rollout, Search, SearchMethod, Study,
     Tradeoff, list, rated_torque,
@@ -14,6 +15,7 @@ use crate::search::{
     OperationOptions, SearchError, Solution, Stepwise, cancel_per_joint, equivalent_per_joint,
     frontier, least_impact, optimal,
 };
+use ulna::Law;
 use ulna::control::compensation::{Compensation, Controller};
 use ulna::control::failure::{Failure, LockedJoints};
 
@@ -60,6 +62,10 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
     /// The planned motion.
     pub fn motion(&self) -> &PlannedMotion<N> {
         &self.motion
+    }
+
+    pub(super) fn failed_joints(&self) -> LockedJoints<N> {
+        self.failed_joints
     }
 
     /// Every experiment at every failure time, in the scenario's order.
@@ -118,6 +124,8 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
         };
         let options = OperationOptions {
             sample_period: self.scenario.cycle(),
+            step_time: experiment.step_time(),
+            wrench_step: experiment.force().lock_step,
             rated_torque: rated_torque(experiment)?,
             field,
             effort,
@@ -156,6 +164,7 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
             &self.motion,
             experiment.force(),
             failure,
+            experiment.step_time(),
             self.scenario.cycle(),
         );
         let coefficients = match compensation {
@@ -167,10 +176,15 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
             method,
             failed_joints: failure.joints.iter().collect(),
             failure_time: failure.time,
+            step_time: experiment.step_time(),
             rated_torque: experiment.rated_torque().map(<[f64]>::to_vec),
             impact_before: list(&operation.step().abs()),
             impact_after: list(&assessment.impact.abs()),
             coefficients: list(&coefficients),
+            bounds: match (method.law(), &search) {
+                (Law::PerJoint, Ok(_)) => bounds(operation),
+                _ => vec![None; N],
+            },
             force_error: assessment.force_error(),
             search,
             rollout,

@@ -9,6 +9,7 @@ pub struct Experiment {
     pub(super) title: String,
     pub(super) force: ToolForce,
     pub(super) rated_torque: Option<Vec<f64>>,
+    pub(super) step_time: f64,
     pub(super) references: Vec<Reference>,
     pub(super) figures: Vec<Figure>,
 }
@@ -24,7 +25,7 @@ impl Experiment {
         &self.title
     }
 
-    /// What the tool exerts.
+    /// What the tool exerts, and what a lock takes from it.
     pub fn force(&self) -> &ToolForce {
         &self.force
     }
@@ -32,6 +33,11 @@ impl Experiment {
     /// The rated torques to keep, N·m (N); `None` for no limit.
     pub fn rated_torque(&self) -> Option<&[f64]> {
         self.rated_torque.as_deref()
+    }
+
+    /// Δt of Eq. 18, s: from the last torque before the lock, at t_f, to the first after it. 0 is the limit of ever shorter ones.
+    pub fn step_time(&self) -> f64 {
+        self.step_time
     }
 
     /// Figures from elsewhere, to stand beside ours.
@@ -86,6 +92,9 @@ pub struct Reference {
     pub(super) before: Vec<Option<f64>>,
     pub(super) after: Vec<Option<f64>>,
     pub(super) coefficients: Vec<Option<f64>>,
+    pub(super) free_after: Vec<Option<f64>>,
+    pub(super) decrease: Vec<Option<f64>>,
+    pub(super) mean_room: Option<f64>,
 }
 
 impl Reference {
@@ -112,5 +121,20 @@ impl Reference {
     /// The coefficients k_d, likewise.
     pub fn coefficients(&self) -> &[Option<f64>] {
         &self.coefficients
+    }
+
+    /// Impact torque with the compensation that no rated torque limits, N·m (N), likewise.
+    pub fn free_after(&self) -> &[Option<f64>] {
+        &self.free_after
+    }
+
+    /// By how much the rated torques lower the compensation, %, likewise.
+    pub fn decrease(&self) -> &[Option<f64>] {
+        &self.decrease
+    }
+
+    /// What the motion leaves of the rated torques, on the mean over it and over the joints of the reference, N·m (N).
+    pub fn mean_room(&self) -> Option<f64> {
+        self.mean_room
     }
 }

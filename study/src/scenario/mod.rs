@@ -126,7 +126,7 @@ impl Scenario {
         &self.failure_times
     }
 
-    /// The control cycle Δt, s: torque limits are kept at its multiples.
+    /// The control cycle, s: torque limits are kept at its multiples. The Δt of Eq. 18 is [`Experiment::step_time`].
     pub fn cycle(&self) -> f64 {
         self.cycle
     }

@@ -6,17 +6,19 @@ use super::CampaignSettings;
 use crate::tool_path::{StraightLine, ToolPath};
 use ulna::control::trajectory::TrajectoryError;
 use ulna::proof::random::SplitMix64;
-use ulna::{Arm, JointLimits, JointState, TaskRows, Trajectory, Trapezoid};
+use ulna::{
+    Arm, JointLimits, JointState, PointToPoint, Profile, ProfileShape, TaskRows, Trajectory,
+};
 
 /// A planned motion from rest to rest. Its lists have one entry for each joint of the same arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     pub(super) start: Vec<f64>,
     pub(super) path: Path,
-    pub(super) duration: f64,
-    pub(super) blend: f64,
+    pub(super) profile: Profile,
     pub(super) max_velocity: Vec<f64>,
     pub(super) max_acceleration: Vec<f64>,
+    pub(super) max_jerk: Vec<f64>,
 }
 
 /// What moves in a straight line.
@@ -41,12 +43,26 @@ impl Motion {
 
     /// The whole motion, s.
     pub fn duration(&self) -> f64 {
-        self.duration
+        self.profile.duration()
     }
 
     /// Speeding up and slowing down, s each: above 0, and twice it is no more than the duration.
     pub fn blend(&self) -> f64 {
-        self.blend
+        self.profile.blend()
+    }
+
+    /// How the joints, or the tool, speed up and slow down.
+    pub fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// The same motion in the same time, with blends of another shape.
+    ///
+    /// # Errors
+    /// When that shape does not fit into the blend.
+    pub fn with_shape(mut self, shape: ProfileShape) -> Result<Self, TrajectoryError> {
+        self.profile = Profile::new(self.duration(), self.blend(), shape)?;
+        Ok(self)
     }
 
     /// Largest |q̇_i|, rad/s (m/s); infinite where there is no limit.
@@ -57,6 +73,11 @@ impl Motion {
     /// Largest |q̈_i|, rad/s² (m/s²); infinite where there is no limit.
     pub fn max_acceleration(&self) -> &[f64] {
         &self.max_acceleration
+    }
+
+    /// Largest |d`q̈_i`/dt|, rad/s³ (m/s³); infinite where there is no limit.
+    pub fn max_jerk(&self) -> &[f64] {
+        &self.max_jerk
     }
 
     /// The motion as `campaign` varies it: another start, and another goal, for a tool in the components of `task`.
@@ -98,18 +119,18 @@ impl Motion {
         let limits = JointLimits {
             velocity: for_each_joint(&self.max_velocity)?,
             acceleration: for_each_joint(&self.max_acceleration)?,
+            jerk: for_each_joint(&self.max_jerk)?,
         };
-        let (duration, blend) = (self.duration, self.blend);
         Ok(match &self.path {
             Path::Joint(goal) => {
                 let goal = for_each_joint(goal)?;
-                PlannedMotion::Joint(Trapezoid::new(start, goal, duration, blend, &limits)?)
+                let motion = PointToPoint::along(start, goal, self.profile, &limits)?;
+                PlannedMotion::Joint(motion)
             }
             Path::Tool(displacement) => {
                 let line = StraightLine {
                     displacement: *displacement,
-                    duration,
-                    blend,
+                    profile: self.profile,
                     knot_period,
                 };
                 PlannedMotion::Tool(ToolPath::straight(arm, &start, &line, &limits)?)
@@ -146,9 +167,27 @@ pub enum PlanError {
 #[derive(Clone, Debug, PartialEq)]
 pub enum PlannedMotion<const N: usize> {
     /// Straight in joint space.
-    Joint(Trapezoid<N>),
+    Joint(PointToPoint<N>),
     /// Straight in space.
     Tool(ToolPath<N>),
+}
+
+impl<const N: usize> PlannedMotion<N> {
+    /// How the joints, or the tool, speed up and slow down.
+    pub fn profile(&self) -> &Profile {
+        match self {
+            Self::Joint(motion) => motion.profile(),
+            Self::Tool(motion) => motion.profile(),
+        }
+    }
+
+    /// The planned state at `time`, s; where q̈ jumps, with its value before the jump.
+    pub fn state_before(&self, time: f64) -> JointState<N> {
+        match self {
+            Self::Joint(motion) => motion.state_before(time),
+            Self::Tool(motion) => motion.state_before(time),
+        }
+    }
 }
 
 impl<const N: usize> Trajectory<N> for PlannedMotion<N> {

@@ -38,9 +38,9 @@ pub use worse::{WorseJoint, worse_joints};
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SearchError {
-    /// The lock and the first cycle after it do not lie within the motion.
+    /// The lock and the first torque after it do not lie within the motion.
     #[error(
-        "the failure at {time} s (and one control period) must lie within the motion's {duration} s"
+        "the failure at {time} s (and the step time after it) must lie within the motion's {duration} s"
     )]
     FailureTime {
         /// t_f, s.

@@ -14,8 +14,10 @@ use ulna::control::trajectory::Trajectory;
 pub struct OperationOptions<const N: usize> {
     /// The largest time between two samples, s.
     pub sample_period: f64,
-    /// Δt of Eq. 18: how long after t_f the torques count as those after the lock, s. 0 is the limit of ever shorter cycles.
-    pub control_period: f64,
+    /// Δt of Eq. 18, s: from the last torque before the lock, at t_f, to the first after it. 0 is the limit of ever shorter ones.
+    pub step_time: f64,
+    /// `ΔF_e` and `ΔN_e` of Eq. 8, `[f; n]`, N and N·m: what the lock takes from the tool's wrench, before minus after.
+    pub wrench_step: Vector6<f64>,
     /// The projector of every law.
     pub projector: Projector,
     /// What stands in the place of ∇w_D in Eq. 16 and 20.
@@ -34,11 +36,12 @@ pub struct OperationOptions<const N: usize> {
 pub const EFFORT: f64 = 1e-3;
 
 impl<const N: usize> Default for OperationOptions<N> {
-    /// Samples every 50 ms, an instant lock, the static projector, ∇w_D, no limits, a small weight of effort.
+    /// Samples every 50 ms, a lock in no time that leaves the wrench as it is, the static projector, ∇w_D, no limits, a small weight of effort.
     fn default() -> Self {
         Self {
             sample_period: 0.05,
-            control_period: 0.0,
+            step_time: 0.0,
+            wrench_step: Vector6::zeros(),
             projector: Projector::Static,
             field: Field::default(),
             rated_torque: SVector::repeat(f64::INFINITY),
@@ -105,7 +108,8 @@ impl<const N: usize> Assessment<N> {
 }
 
 impl<const N: usize> Operation<N> {
-    /// Looks at the motion of `arm` along `trajectory`, whose tool is to exert `wrench(t)` (`[f; n]`, world axes), with `failure` in it.
+    /// Looks at the motion of `arm` along `trajectory`, whose tool is to exert `wrench(t)` (`[f; n]`, world axes), after the lock
+    /// less [`wrench_step`](OperationOptions::wrench_step), with `failure` in it.
     /// The healthy joints keep to their plan.
     pub fn new(
         arm: &(impl Arm<N> + ?Sized),
@@ -114,7 +118,7 @@ impl<const N: usize> Operation<N> {
         failure: &Failure<N>,
         options: &OperationOptions<N>,
     ) -> Result<Self, SearchError> {
-        let (duration, after) = (trajectory.duration(), failure.time + options.control_period);
+        let (duration, after) = (trajectory.duration(), failure.time + options.step_time);
         let samples = duration / options.sample_period;
         if !(samples > 0.0 && samples <= 1e6) {
             return Err(SearchError::Argument {
@@ -123,11 +127,11 @@ impl<const N: usize> Operation<N> {
                 value: options.sample_period,
             });
         }
-        if !(options.control_period >= 0.0 && options.control_period.is_finite()) {
+        if !(options.step_time >= 0.0 && options.step_time.is_finite()) {
             return Err(SearchError::Argument {
-                name: "control period",
+                name: "step time",
                 range: "a time of at least 0 s",
-                value: options.control_period,
+                value: options.step_time,
             });
         }
         if !(options.effort >= 0.0 && options.effort.is_finite()) {
@@ -144,14 +148,15 @@ impl<const N: usize> Operation<N> {
             });
         }
         let sample = |time: f64, locked: LockedJoints<N>| {
-            let state = if locked.is_empty() {
-                trajectory.state(time)
+            let (state, wrench) = if locked.is_empty() {
+                (trajectory.state(time), wrench(time))
             } else {
-                failure.state(trajectory, time)
+                let wrench = wrench(time) - options.wrench_step;
+                (failure.state(trajectory, time), wrench)
             };
             let pose = options.field.pose(arm, &state.q, locked, options.projector);
             let planned = arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
-                + pose.jacobian.tr_mul(&wrench(time));
+                + pose.jacobian.tr_mul(&wrench);
             if !planned.iter().all(|torque| torque.is_finite()) {
                 return Err(SearchError::NotFinite { time });
             }
@@ -176,6 +181,13 @@ impl<const N: usize> Operation<N> {
             samples,
             lock,
         })
+    }
+
+    /// The same operation with other rated torques, N·m (N). One that is negative or no number counts as 0.
+    #[must_use]
+    pub fn with_rated_torque(mut self, rated_torque: SVector<f64, N>) -> Self {
+        self.rated_torque = rated_torque.map(|rated| rated.max(0.0));
+        self
     }
 
     /// The failure.
@@ -213,7 +225,8 @@ impl<const N: usize> Operation<N> {
         &self.samples[self.lock]
     }
 
-    /// The torque step without compensation, after minus before, N·m (N): −Δτ of the impact torque, plus Jᵀ times what the wrench grew by.
+    /// The torque step without compensation, after minus before, N·m (N): −Δτ of the impact torque (Eq. 12) with `ΔF_e`,
+    /// plus what the locked arm's plan and its wrench change in Δt.
     pub fn step(&self) -> SVector<f64, N> {
         self.after().planned - self.before().planned
     }

@@ -226,9 +226,9 @@ fn the_controller_executes_what_the_search_found() {
 }
 
 #[test]
-fn a_control_period_takes_the_torques_one_cycle_later() {
+fn a_step_time_takes_the_torques_so_much_later() {
     let options = OperationOptions {
-        control_period: 1e-3,
+        step_time: 1e-3,
         ..OperationOptions::default()
     };
     // Section 5.4: F_e = 0.2 t² + 4 t along each axis.

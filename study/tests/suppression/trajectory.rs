@@ -1,17 +1,19 @@
 use ulna::control::trajectory::TrajectoryError;
 use ulna::nalgebra::{SVector, Vector6};
-use ulna::{Arm, JointLimits, Trajectory, Trapezoid};
+use ulna::{Arm, JointLimits, Profile, ProfileShape, Trajectory, Trapezoid};
 use ulna_study::tool_path::{StraightLine, ToolPath};
 
 use crate::arms::{chain, paper_like_motion, ssrms};
 
-/// Rates and accelerations against central differences, away from the times where the acceleration jumps.
-fn is_differentiated<const N: usize>(motion: &impl Trajectory<N>, blend: f64) {
+/// Rates and accelerations against central differences, away from the times where acceleration or jerk jumps.
+pub(crate) fn is_differentiated<const N: usize>(motion: &impl Trajectory<N>, profile: &Profile) {
     let step = 1e-5;
     for i in 1..40 {
         let time = motion.duration() * f64::from(i) / 40.0;
-        let jump = [blend, motion.duration() - blend];
-        if jump.iter().any(|jump| (time - jump).abs() < 2.0 * step) {
+        if profile
+            .phase_ends()
+            .any(|jump| (time - jump).abs() < 2.0 * step)
+        {
             continue;
         }
         let [before, now, after] = [time - step, time, time + step].map(|t| motion.state(t));
@@ -25,7 +27,7 @@ fn is_differentiated<const N: usize>(motion: &impl Trajectory<N>, blend: f64) {
 #[test]
 fn trapezoid_goes_from_rest_to_rest() {
     let motion = paper_like_motion();
-    is_differentiated(&motion, 4.455);
+    is_differentiated(&motion, motion.profile());
     let (start, goal) = (motion.state(0.0).q, motion.state(20.0).q);
     assert_eq!(motion.state(-1.0).q, start);
     assert_eq!(motion.state(25.0).q, goal);
@@ -87,8 +89,7 @@ fn line(displacement: [f64; 3]) -> StraightLine {
     let [x, y, z] = displacement;
     StraightLine {
         displacement: Vector6::new(x, y, z, 0.0, 0.0, 0.0),
-        duration: 8.0,
-        blend: 2.0,
+        profile: Profile::new(8.0, 2.0, ProfileShape::Trapezoid).unwrap(),
         knot_period: 0.02,
     }
 }
@@ -99,7 +100,7 @@ fn tool_path_is_straight_and_differentiated() {
     let start = paper_like_motion().state(0.0).q;
     let path =
         ToolPath::straight(&arm, &start, &line([-1.0, 0.6, 0.4]), &JointLimits::none()).unwrap();
-    is_differentiated(&path, 2.0);
+    is_differentiated(&path, path.profile());
     let origin = arm.forward_kinematics(&start).translation.vector;
     for i in 0..=50 {
         let time = 8.0 * f64::from(i) / 50.0;
@@ -128,7 +129,7 @@ fn tool_path_turns_the_tool_about_its_axis_of_rotation() {
         ..line([0.0; 3])
     };
     let path = ToolPath::straight(&arm, &start, &turn, &JointLimits::none()).unwrap();
-    is_differentiated(&path, 2.0);
+    is_differentiated(&path, path.profile());
     let state = path.state(4.0);
     let twist = arm.geometric_jacobian(&state.q) * state.qd;
     let speed = twist.x / 0.02;

@@ -2,6 +2,7 @@
 
 mod findings;
 mod lock;
+mod plan;
 
 use std::fmt::{self, Write};
 
@@ -45,6 +46,7 @@ pub(super) fn write(scenario: &Scenario, findings: &Findings) -> Result<String, 
         summary(&mut page, &studies)?;
         figures(&mut page, experiment)?;
     }
+    plan::write(&mut page, &findings.plan_steps)?;
     lock::write(&mut page, scenario, findings)?;
     files(&mut page)?;
     Ok(page)
@@ -113,6 +115,8 @@ fn files(page: &mut String) -> fmt::Result {
          - `impact.csv`: a row for each case and joint, the search in steps among them.\n\
          - `search.csv`: the searches side by side: how they ended, gap, iterations, seconds, quality.\n\
          - `frontier.csv`: the points of the frontiers.\n\
+         - `limits.csv`: what the rated torques cost, joint by joint, and what cuts which coefficient.\n\
+         - `plan_steps.csv`: the torque steps of the plan itself with each profile, and those of the locks.\n\
          - `truth.csv`, `convergence.csv`: the simulated locks.\n\
          - `series/`: torques and forces over time.\n\
          - `figures/`: SVG, and PNG of the same."

@@ -13,6 +13,11 @@ pub(in crate::scenario) static RATE: Bound = Bound {
     unit: "rad/s, rad/s^2 (m/s, m/s^2)",
     help: "a limit is positive; leave the key out if there is none",
 };
+pub(in crate::scenario) static JERK: Bound = Bound {
+    range: 1e-9..=1e9,
+    unit: "rad/s^3 (m/s^3)",
+    help: "a limit is positive; leave the key out if there is none",
+};
 pub(super) static DISPLACEMENT: Bound = Bound {
     range: -100.0..=100.0,
     unit: "m, rad",
@@ -39,6 +44,11 @@ pub(super) static CYCLE: Bound = Bound {
     unit: "s",
     help: "a control cycle is in seconds, for example 0.01",
 };
+pub(super) static STEP_TIME: Bound = Bound {
+    range: 0.0..=10.0,
+    unit: "s",
+    help: "the time from the last torque before the lock to the first after it; 0 is the limit of ever shorter ones",
+};
 pub(super) static BRAKE: Bound = Bound {
     range: 1e-6..=10.0,
     unit: "s",
@@ -57,6 +67,11 @@ pub(super) static STEP: Bound = Bound {
 pub(super) static FORCE: Bound = Bound {
     range: -1e7..=1e7,
     unit: "N (N m) per power of s",
+    help: "forces are in newtons",
+};
+pub(super) static WRENCH_STEP: Bound = Bound {
+    range: -1e7..=1e7,
+    unit: "N (N m)",
     help: "forces are in newtons",
 };
 pub(super) static RATED: Bound = Bound {

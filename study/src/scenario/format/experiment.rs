@@ -2,7 +2,7 @@
 
 use super::bounds::{
     FAILURE_TIME, FIGURE as FIGURE_BOUND, FORCE as FORCE_BOUND, MAX_COEFFICIENTS, MAX_FIGURES,
-    RATED,
+    RATED, STEP_TIME as STEP_TIME_BOUND,
 };
 use crate::scenario::read::{FigureWord, RatedWord};
 use ulna_table::toml_reader::{Choice, Key, Kind, Limit, Need, Section};
@@ -11,13 +11,14 @@ pub(in crate::scenario) static EXPERIMENT: Section = Section {
     header: "[[experiment]]",
     meaning: "At least once: a tool force, and torque limits",
     example: "[[experiment]]\nsection = \"1\"\ntitle = \"growing force\"\nforce = [10.0, [5.0, 2.0], 0.0]\n\
-              moment = [0.0, 0.0, 0.0]\nrated_torque = 300.0\n",
+              moment = [0.0, 0.0, 0.0]\nrated_torque = 300.0\nstep_time = 0.01\n",
     keys: &[
         &SECTION,
         &TITLE,
         &FORCE,
         &MOMENT,
         &RATED_TORQUE,
+        &STEP_TIME,
         &REFERENCES,
         &FIGURES,
     ],
@@ -76,6 +77,14 @@ pub(in crate::scenario) static RATED_TORQUE: Key = Key::required(
     "`rated_torque = \"table\"` or `rated_torque = 300.0`",
 )
 .limits(&[Limit::Within(&RATED)]);
+pub(in crate::scenario) static STEP_TIME: Key = Key::required(
+    "step_time",
+    Kind::Number,
+    "Delta t of Eq. 18 in this experiment",
+    "`step_time = 0.01`",
+)
+.limits(&[Limit::Within(&STEP_TIME_BOUND)])
+.need(Need::Optional("that of [failure] counts"));
 pub(in crate::scenario) static REFERENCES: Key = Key::required(
     "reference",
     Kind::Tables(&REFERENCE),
@@ -98,7 +107,7 @@ static REFERENCE: Section = Section {
     header: "[[experiment.reference]]",
     meaning: "Any number of times below an `[[experiment]]`",
     example: "[[experiment.reference]]\nsource = \"paper, Table 2\"\ntime = 5.0\njoints = [1, 2]\nbefore = [30.0, 60.0]\n\
-              after = [0.1, 0.1]\ncoefficients = [-1e7, -1e7]\n",
+              after = [0.1, 0.1]\ncoefficients = [-1e7, -1e7]\nfree_after = [0.01, 0.02]\ndecrease = [20.0, 60.0]\nmean_room = 250.0\n",
     keys: &[
         &SOURCE,
         &REFERENCE_TIME,
@@ -106,6 +115,9 @@ static REFERENCE: Section = Section {
         &BEFORE,
         &AFTER,
         &COEFFICIENTS,
+        &FREE_AFTER,
+        &DECREASE,
+        &MEAN_ROOM,
     ],
 };
 pub(in crate::scenario) static SOURCE: Key = Key::required(
@@ -143,6 +155,25 @@ pub(in crate::scenario) static COEFFICIENTS: Key = figures(
     "The coefficients k_d",
     "`coefficients = [1e7, -1e7]`",
 );
+
+pub(in crate::scenario) static FREE_AFTER: Key = figures(
+    "free_after",
+    "Impact torque with the compensation that no rated torque limits, N m (N)",
+    "`free_after = [0.01, 0.02]`",
+);
+pub(in crate::scenario) static DECREASE: Key = figures(
+    "decrease",
+    "By how much the rated torques lower the compensation, %",
+    "`decrease = [20.0, 60.0]`",
+);
+pub(in crate::scenario) static MEAN_ROOM: Key = Key::required(
+    "mean_room",
+    Kind::Number,
+    "What the motion leaves of the rated torques, on the mean over it and over these joints, N m (N)",
+    "`mean_room = 250.0`",
+)
+.limits(PRINTED)
+.need(Need::Optional("there is no figure"));
 
 const PRINTED: &[Limit] = &[Limit::Within(&FIGURE_BOUND)];
 

@@ -9,7 +9,7 @@ mod words;
 
 use bounds::{
     BRAKE as BRAKE_BOUND, COEFFICIENT, CYCLE as CYCLE_BOUND, MAX_CYCLES, MAX_STUDIES,
-    STEP as STEP_BOUND,
+    STEP as STEP_BOUND, STEP_TIME as STEP_TIME_BOUND, WRENCH_STEP,
 };
 use ulna_table::ANGLE_UNIT;
 use ulna_table::toml_reader::{Choice, Key, Kind, Limit, Need, Section, reference as printed};
@@ -125,8 +125,15 @@ pub(super) static ASSESS: Key = Key::required(
 static FAILURE_SECTION: Section = Section {
     header: "[failure]",
     meaning: "Once",
-    example: "[failure]\njoints = [2]\ntimes = [2.0, 5.0]\n",
-    keys: &[&FAILED_JOINTS, &TIMES],
+    example: "[failure]\njoints = [2]\ntimes = [2.0, 5.0]\nstep_time = 0.0\nforce_step = [0.0, 0.0, 0.0]\n\
+              moment_step = [0.0, 0.0, 0.0]\n",
+    keys: &[
+        &FAILED_JOINTS,
+        &TIMES,
+        &STEP_TIME,
+        &FORCE_STEP,
+        &MOMENT_STEP,
+    ],
 };
 pub(super) static FAILED_JOINTS: Key = Key::required(
     "joints",
@@ -144,6 +151,37 @@ pub(super) static TIMES: Key = Key::required(
     format!("s, from 0 to below the motion's duration, each once; times and experiments multiply to at most {MAX_STUDIES}")
 })]);
 
+/// Δt of Eq. 18, s, in a scenario that does not say.
+pub(super) const DEFAULT_STEP_TIME: f64 = 0.0;
+pub(super) static STEP_TIME: Key = Key::required(
+    "step_time",
+    Kind::Number,
+    "Delta t of Eq. 18: from the last torque before the lock, at t_f, to the first after it. Not the control cycle",
+    "`step_time = 0.0`",
+)
+.limits(&[
+    Limit::Within(&STEP_TIME_BOUND),
+    Limit::Said(|| "within the motion after each of `times`".to_owned()),
+])
+.need(Need::Default(|| format!("{DEFAULT_STEP_TIME:?}")));
+pub(super) static FORCE_STEP: Key = wrench_step(
+    "force_step",
+    "Delta F_e of Eq. 8: what the lock takes from the tool's force along the world's axes, before minus after",
+    "`force_step = [0.0, 0.0, 0.0]`",
+);
+pub(super) static MOMENT_STEP: Key = wrench_step(
+    "moment_step",
+    "Delta N_e of Eq. 8: what it takes from the moment about them, likewise",
+    "`moment_step = [0.0, 0.0, 0.0]`",
+);
+
+const fn wrench_step(name: &'static str, meaning: &'static str, write: &'static str) -> Key {
+    Key::required(name, Kind::List(&Kind::Number, "of three"), meaning, write)
+        .limits(NEWTONS)
+        .need(Need::Default(|| "[0.0, 0.0, 0.0]".to_owned()))
+}
+const NEWTONS: &[Limit] = &[Limit::Within(&WRENCH_STEP)];
+
 static CONTROL_SECTION: Section = Section {
     header: "[control]",
     meaning: "Once",
@@ -153,7 +191,7 @@ static CONTROL_SECTION: Section = Section {
 pub(super) static CYCLE: Key = Key::required(
     "cycle",
     Kind::Number,
-    "The control cycle: torque limits are kept at its multiples",
+    "The control cycle: torque limits are kept at its multiples. Not the Delta t of Eq. 18, which is `step_time` of [failure]",
     "`cycle = 0.01`",
 )
 .limits(&[

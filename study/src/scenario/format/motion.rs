@@ -1,16 +1,18 @@
 //! `[motion]`.
 
 use super::bounds::{
-    DISPLACEMENT as DISPLACEMENT_BOUND, DURATION as DURATION_BOUND, POSITION, RATE, TOOL_DURATION,
+    DISPLACEMENT as DISPLACEMENT_BOUND, DURATION as DURATION_BOUND, JERK, POSITION, RATE,
+    TOOL_DURATION,
 };
-use crate::scenario::read::{Angles, MotionKind};
+use crate::scenario::read::{Angles, MotionKind, ProfileWord};
 use ulna_table::toml_reader::{Choice, Key, Kind, Limit, Need, Section};
 
 pub(in crate::scenario) static MOTION: Section = Section {
     header: "[motion]",
     meaning: "Once: from rest to rest",
     example: "[motion]\nkind = \"joint\"\nangles = \"q\"\nstart = [0.0, 30.0]\ngoal = [60.0, -20.0]\nduration = 10.0\nblend = 3.0\n\
-              max_velocity = [90.0, 90.0]\nmax_acceleration = [30.0, 30.0]\n",
+              profile = \"s_curve\"\njerk_time = 1.0\nmax_velocity = [90.0, 90.0]\nmax_acceleration = [30.0, 30.0]\n\
+              max_jerk = [30.0, 30.0]\n",
     keys: &[
         &KIND,
         &ANGLES,
@@ -19,8 +21,11 @@ pub(in crate::scenario) static MOTION: Section = Section {
         &DISPLACEMENT,
         &DURATION,
         &BLEND,
+        &PROFILE,
+        &JERK_TIME,
         &MAX_VELOCITY,
         &MAX_ACCELERATION,
+        &MAX_JERK,
     ],
 };
 
@@ -80,6 +85,23 @@ pub(in crate::scenario) static BLEND: Key = Key::required(
 .limits(&[Limit::Said(|| {
     "s, above 0, at most half the duration".to_owned()
 })]);
+pub(in crate::scenario) static PROFILE: Key = Key::required(
+    "profile",
+    Kind::Words(ProfileWord::listed),
+    "How the speed rises in a blend, and falls in the other one",
+    "`profile = \"trapezoid\"`, `profile = \"quintic\"` or `profile = \"s_curve\"`",
+)
+.need(Need::Default(|| ProfileWord::default().quoted()));
+pub(in crate::scenario) static JERK_TIME: Key = Key::required(
+    "jerk_time",
+    Kind::Number,
+    "How long the acceleration of an S-curve takes to rise, and again to fall, in each blend",
+    "`jerk_time = 1.0`",
+)
+.limits(&[Limit::Said(|| {
+    "s, above 0, at most half the blend; with `profile = \"s_curve\"` only".to_owned()
+})])
+.need(Need::Optional("it is half the blend"));
 pub(in crate::scenario) static MAX_VELOCITY: Key = Key::required(
     "max_velocity",
     EACH,
@@ -95,6 +117,14 @@ pub(in crate::scenario) static MAX_ACCELERATION: Key = Key::required(
     "`max_acceleration = [0.1, 0.1]` with a number for each joint",
 )
 .limits(RATES)
+.need(Need::Optional("there is no limit"));
+pub(in crate::scenario) static MAX_JERK: Key = Key::required(
+    "max_jerk",
+    EACH,
+    "The fastest that the acceleration of each joint may change; a motion that needs more is refused, and so is any trapezoid",
+    "`max_jerk = [0.1, 0.1]` with a number for each joint",
+)
+.limits(&[IN_UNIT, Limit::Within(&JERK)])
 .need(Need::Optional("there is no limit"));
 
 const IN_UNIT: Limit = Limit::Said(|| "in `angle_unit` where the joint turns".to_owned());

@@ -1,6 +1,6 @@
 //! The words of a scenario.
 
-use crate::scenario::read::{Angles, FigureWord, MotionKind, RatedWord};
+use crate::scenario::read::{Angles, FigureWord, MotionKind, ProfileWord, RatedWord};
 use crate::simulation::BrakeProfile;
 use ulna_table::toml_reader::{Choice, Word};
 
@@ -9,7 +9,7 @@ impl Choice for MotionKind {
         Word::new(
             "joint",
             Self::Joint,
-            "a trapezoid of the joints' velocities, to `goal`",
+            "a straight line of the joints, to `goal`",
         ),
         Word::new(
             "tool",
@@ -27,6 +27,26 @@ impl Choice for Angles {
             "theta + q (or d + q), what stands in the joint's row",
         ),
         Word::new("q", Self::Q, "measured from the table's configuration"),
+    ];
+}
+
+impl Choice for ProfileWord {
+    const WORDS: &'static [Word<Self>] = &[
+        Word::new(
+            "trapezoid",
+            Self::Trapezoid,
+            "evenly: the acceleration is constant, and jumps at both ends of a blend",
+        ),
+        Word::new(
+            "quintic",
+            Self::Quintic,
+            "as 10x^3 - 15x^4 + 6x^5 of the blend's time: acceleration and jerk are continuous",
+        ),
+        Word::new(
+            "s_curve",
+            Self::SCurve,
+            "in three segments of constant jerk, seven in the whole motion: the acceleration is continuous",
+        ),
     ];
 }
 

@@ -12,6 +12,7 @@ pub(in crate::scenario) struct ExperimentTable {
     pub(in crate::scenario) force: Option<Located<Vec<Option<Numbers>>>>,
     pub(in crate::scenario) moment: Option<Located<Vec<Option<Numbers>>>>,
     pub(in crate::scenario) rated_torque: Option<RatedTable>,
+    pub(in crate::scenario) step_time: Number,
     pub(in crate::scenario) references: Vec<ReferenceTable>,
     pub(in crate::scenario) figures: Vec<FigureTable>,
 }
@@ -43,6 +44,9 @@ pub(in crate::scenario) struct ReferenceTable {
     pub(in crate::scenario) before: List,
     pub(in crate::scenario) after: List,
     pub(in crate::scenario) coefficients: List,
+    pub(in crate::scenario) free_after: List,
+    pub(in crate::scenario) decrease: List,
+    pub(in crate::scenario) mean_room: Number,
 }
 
 /// `[[experiment.figure]]`
@@ -83,6 +87,7 @@ fn read_experiment(fields: &mut Fields<'_>, owner: &str) -> ExperimentTable {
         rated_torque: fields
             .value(&format::RATED_TORQUE)
             .and_then(read_rated_torque),
+        step_time: number(fields.value(&format::STEP_TIME)),
         references: fields
             .value(&format::REFERENCES)
             .and_then(|value| value.items("a list, each under its own [[experiment.reference]]"))
@@ -137,6 +142,9 @@ fn read_reference(fields: &mut Fields<'_>, _: &str) -> ReferenceTable {
         before: list(fields.value(&format::BEFORE)),
         after: list(fields.value(&format::AFTER)),
         coefficients: list(fields.value(&format::COEFFICIENTS)),
+        free_after: list(fields.value(&format::FREE_AFTER)),
+        decrease: list(fields.value(&format::DECREASE)),
+        mean_room: number(fields.value(&format::MEAN_ROOM)),
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) use experiment::{
 };
 use experiment::{read_experiments, read_rated_torque};
 use motion::read_motion;
-pub(super) use motion::{Angles, MotionKind, MotionTable, PathTable};
+pub(super) use motion::{Angles, MotionKind, MotionTable, PathTable, ProfileWord};
 
 /// Numbers, each read by itself.
 pub(super) type Numbers = Vec<Option<Located<f64>>>;
@@ -46,6 +46,9 @@ pub(super) struct ScenarioTable {
 pub(super) struct FailureTable {
     pub(super) joints: List,
     pub(super) times: List,
+    pub(super) step_time: Number,
+    pub(super) force_step: List,
+    pub(super) moment_step: List,
 }
 
 /// `[search]`
@@ -98,6 +101,9 @@ impl ScenarioTable {
                 value.table("[failure]", |failure| FailureTable {
                     joints: list(failure.value(&format::FAILED_JOINTS)),
                     times: list(failure.value(&format::TIMES)),
+                    step_time: number(failure.value(&format::STEP_TIME)),
+                    force_step: list(failure.value(&format::FORCE_STEP)),
+                    moment_step: list(failure.value(&format::MOMENT_STEP)),
                 })
             }),
             cycle: fields

@@ -11,8 +11,11 @@ pub(in crate::scenario) struct MotionTable {
     pub(in crate::scenario) path: Option<PathTable>,
     pub(in crate::scenario) duration: Number,
     pub(in crate::scenario) blend: Number,
+    pub(in crate::scenario) profile: Option<ProfileWord>,
+    pub(in crate::scenario) jerk_time: Number,
     pub(in crate::scenario) max_velocity: List,
     pub(in crate::scenario) max_acceleration: List,
+    pub(in crate::scenario) max_jerk: List,
 }
 
 /// What the numbers of a position are.
@@ -22,6 +25,15 @@ pub(in crate::scenario) enum Angles {
     Dh,
     /// q itself.
     Q,
+}
+
+/// How the speed rises in a blend.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+pub(in crate::scenario) enum ProfileWord {
+    #[default]
+    Trapezoid,
+    Quintic,
+    SCurve,
 }
 
 /// Where the motion leads.
@@ -65,7 +77,13 @@ pub(super) fn read_motion(motion: &mut Fields<'_>) -> MotionTable {
         },
         duration: number(motion.value(&format::DURATION)),
         blend: number(motion.value(&format::BLEND)),
+        profile: motion
+            .value(&format::PROFILE)
+            .and_then(Value::choice)
+            .map(|profile| profile.value),
+        jerk_time: number(motion.value(&format::JERK_TIME)),
         max_velocity: list(motion.value(&format::MAX_VELOCITY)),
         max_acceleration: list(motion.value(&format::MAX_ACCELERATION)),
+        max_jerk: list(motion.value(&format::MAX_JERK)),
     }
 }

@@ -1,6 +1,10 @@
 //! `[[experiment]]`.
 
+use nalgebra::Vector6;
+
 use super::Reader;
+use super::failure::{FailureRead, latest};
+use crate::scenario::format::DEFAULT_STEP_TIME;
 use crate::scenario::format::bounds::{MAX_COEFFICIENTS, MAX_FIGURES};
 use crate::scenario::format::experiment as format;
 use crate::scenario::read::{
@@ -11,17 +15,19 @@ use ulna::Joint;
 use ulna_table::toml_reader::{Key, Located};
 
 impl Reader<'_> {
-    /// The experiments; each section and each figure's name may be there once, and `times` are the failure times.
+    /// The experiments; each section and each figure's name may be there once. `failure` and `duration` are `None` if they
+    /// have been reported.
     pub(super) fn experiments(
         &self,
         tables: &[ExperimentTable],
-        times: Option<&[f64]>,
+        failure: Option<&FailureRead>,
+        duration: Option<f64>,
     ) -> Option<Vec<Experiment>> {
         let mut sections: Vec<&str> = Vec::new();
         let mut names: Vec<&str> = Vec::new();
         let mut read = Vec::new();
         for table in tables {
-            let mut experiment = self.experiment(table, times);
+            let mut experiment = self.experiment(table, failure, duration);
             if let Some(section) = &table.section {
                 if sections.contains(&section.value.as_str()) {
                     let message = format!("section {:?} is there twice", section.value);
@@ -72,7 +78,13 @@ impl Reader<'_> {
         read.into_iter().collect()
     }
 
-    fn experiment(&self, table: &ExperimentTable, times: Option<&[f64]>) -> Option<Experiment> {
+    fn experiment(
+        &self,
+        table: &ExperimentTable,
+        failure: Option<&FailureRead>,
+        duration: Option<f64>,
+    ) -> Option<Experiment> {
+        let times = failure.map(|failure| failure.times.as_slice());
         let none: [Vec<f64>; 3] = Default::default();
         let force = self.polynomials(&table.force, &format::FORCE);
         let moment = match &table.moment {
@@ -81,6 +93,13 @@ impl Reader<'_> {
         };
         let rated_torque = table.rated_torque.as_ref();
         let rated_torque = rated_torque.map(|rated| self.rated_torque(rated));
+        let step_time = match &table.step_time {
+            None => Some(failure.map_or(DEFAULT_STEP_TIME, |failure| failure.step_time)),
+            written => {
+                let span = times.and_then(latest).zip(duration);
+                self.step_time(written, &format::STEP_TIME, span)
+            }
+        };
         let references: Vec<_> = table
             .references
             .iter()
@@ -95,8 +114,10 @@ impl Reader<'_> {
             title: table.title.clone(),
             force: ToolForce {
                 coefficients: [fx, fy, fz, nx, ny, nz],
+                lock_step: failure.map_or(Vector6::zeros(), |failure| failure.wrench_step),
             },
             rated_torque: rated_torque??,
+            step_time: step_time?,
             references: references.into_iter().collect::<Option<_>>()?,
             figures: figures.into_iter().collect::<Option<_>>()?,
         })
@@ -224,12 +245,23 @@ impl Reader<'_> {
             spread(&table.after, &format::AFTER),
         );
         let coefficients = spread(&table.coefficients, &format::COEFFICIENTS);
+        let (free_after, decrease) = (
+            spread(&table.free_after, &format::FREE_AFTER),
+            spread(&table.decrease, &format::DECREASE),
+        );
+        let mean_room = match &table.mean_room {
+            None => Some(None),
+            written => self.bounded(written, &format::MEAN_ROOM).map(Some),
+        };
         Some(Reference {
             source: table.source.clone(),
             time: time?,
             before: before?,
             after: after?,
             coefficients: coefficients?,
+            free_after: free_after?,
+            decrease: decrease?,
+            mean_room: mean_room?,
         })
     }
 }

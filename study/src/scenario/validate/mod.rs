@@ -49,11 +49,10 @@ impl ScenarioTable {
         let failure = failure.and_then(|table| reader.failure(table, duration));
         let cycle = reader.cycle(&self.cycle, duration);
         let search = self.search.as_ref().and_then(|table| reader.search(table));
-        let times = failure.as_ref().map(|(_, times)| times.as_slice());
         let experiments = self
             .experiments
             .as_ref()
-            .and_then(|tables| reader.experiments(tables, times));
+            .and_then(|tables| reader.experiments(tables, failure.as_ref(), duration));
         let studies = reader.studies(self.failure.as_ref(), self.experiments.as_deref());
         let brake = match &self.brake.duration {
             Some(_) => reader.bounded(&self.brake.duration, &format::BRAKE_DURATION),
@@ -65,14 +64,14 @@ impl ScenarioTable {
         });
         let campaign = reader.campaign(&self.campaign);
         let assess = reader.assess(&self.assess);
-        let (failed_joints, failure_times) = failure?;
+        let failure = failure?;
         studies?;
         Some(Scenario {
             name: self.name?,
             description: self.description,
             motion: motion?,
-            failed_joints,
-            failure_times,
+            failed_joints: failure.joints,
+            failure_times: failure.times,
             cycle: cycle?,
             search: search?,
             brake: brake?,

@@ -4,11 +4,11 @@ use nalgebra::Vector6;
 
 use super::Reader;
 use crate::scenario::arm::zero_position;
-use crate::scenario::format::bounds::{DURATION, POSITION, RATE, TOOL_DURATION};
+use crate::scenario::format::bounds::{DURATION, JERK, POSITION, RATE, TOOL_DURATION};
 use crate::scenario::format::motion as format;
 use crate::scenario::motion::{Motion, Path};
-use crate::scenario::read::{Angles, List, MotionTable, Numbers, PathTable};
-use ulna::{Joint, JointKind};
+use crate::scenario::read::{Angles, List, MotionTable, Numbers, PathTable, ProfileWord};
+use ulna::{Joint, JointKind, Profile, ProfileShape};
 use ulna_table::AngleUnit;
 use ulna_table::toml_reader::{Bound, Located};
 
@@ -44,15 +44,17 @@ impl Reader<'_> {
         let duration = duration.and_then(|duration| bound.admit(duration, self.sink));
         let blend = table.blend.as_ref();
         let blend = blend.and_then(|blend| self.blend(blend, duration));
-        let max_velocity = self.limits(&table.max_velocity);
-        let max_acceleration = self.limits(&table.max_acceleration);
+        let profile = self.profile(table, duration, blend);
+        let max_velocity = self.limits(&table.max_velocity, &RATE);
+        let max_acceleration = self.limits(&table.max_acceleration, &RATE);
+        let max_jerk = self.limits(&table.max_jerk, &JERK);
         Some(Motion {
             start: start?,
             path: path?,
-            duration: duration?,
-            blend: blend?,
+            profile: profile?,
             max_velocity: max_velocity?,
             max_acceleration: max_acceleration?,
+            max_jerk: max_jerk?,
         })
     }
 
@@ -74,6 +76,41 @@ impl Reader<'_> {
         None
     }
 
+    /// `duration` and `blend` are sound, or `None`.
+    fn profile(
+        &self,
+        table: &MotionTable,
+        duration: Option<f64>,
+        blend: Option<f64>,
+    ) -> Option<Profile> {
+        let word = table.profile.unwrap_or_default();
+        let jerk_time = table.jerk_time.as_ref();
+        if let Some(jerk_time) = jerk_time.filter(|_| word != ProfileWord::SCurve) {
+            let message = format!("{} is for an S-curve", jerk_time.name);
+            let help = "write `profile = \"s_curve\"` beside it, or leave it out";
+            self.refuse(&jerk_time.span, message, "", help);
+            return None;
+        }
+        let (duration, blend) = (duration?, blend?);
+        let shape = match (word, jerk_time) {
+            (ProfileWord::Trapezoid, _) => ProfileShape::Trapezoid,
+            (ProfileWord::Quintic, _) => ProfileShape::Quintic,
+            (ProfileWord::SCurve, None) => ProfileShape::s_curve(blend),
+            (ProfileWord::SCurve, Some(jerk_time)) => ProfileShape::SCurve {
+                jerk_time: jerk_time.value,
+            },
+        };
+        match (Profile::new(duration, blend, shape), jerk_time) {
+            (Err(error), Some(jerk_time)) => {
+                let message = format!("{} does not fit twice into the blend", jerk_time.name);
+                let help = "the acceleration rises for one jerk time and falls for another";
+                self.refuse(&jerk_time.span, message, error.to_string(), help);
+                None
+            }
+            (profile, _) => profile.ok(),
+        }
+    }
+
     /// q, rad (m).
     fn positions(&self, list: &List, angles: Option<Angles>) -> Option<Vec<f64>> {
         let values = self.in_radians(list, &POSITION)?;
@@ -89,11 +126,11 @@ impl Reader<'_> {
     }
 
     /// Limits of rates; infinite without a list.
-    fn limits(&self, list: &List) -> Option<Vec<f64>> {
+    fn limits(&self, list: &List, bound: &Bound) -> Option<Vec<f64>> {
         if list.is_none() {
             return Some(vec![f64::INFINITY; self.joint_count?]);
         }
-        self.in_radians(list, &RATE)
+        self.in_radians(list, bound)
     }
 
     /// A number for each joint, turned into radians where the joint turns.
