@@ -339,6 +339,8 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
     ) -> Result<Operation<N>, SearchError> {
         let options = OperationOptions {
             sample_period,
+            step_time: self.experiment.step_time(),
+            wrench_step: self.experiment.force().lock_step,
             rated_torque: self.rated_torque,
             field,
             ..OperationOptions::default()
