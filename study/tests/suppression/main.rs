@@ -8,4 +8,5 @@ mod on_line;
 mod optimal;
 mod search;
 mod singular;
+mod suppression_loop;
 mod trajectory;
