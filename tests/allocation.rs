@@ -76,7 +76,7 @@ fn cycles(arm: &impl Arm<7>) {
 }
 
 /// A loop through all it can meet: every law, a lock, another one, a switch, limits that bind, numbers that are none.
-fn loops(arm: &impl Arm<7>) {
+fn loops(arm: &impl Arm<7>, rated: &[f64]) {
     let wrench = Vector6::new(20.0, 20.0, 20.0, 0.0, 0.0, 0.0);
     let k = SVector::repeat(1e7);
     let samples = [SVector::repeat(5.0), SVector::repeat(-3.0)];
@@ -87,12 +87,12 @@ fn loops(arm: &impl Arm<7>) {
         SuppressionLaw::OnLine(OnLine::equal()),
     ];
     for law in laws {
-        for rated in [f64::INFINITY, 250.0, 1.0] {
+        for rated in rated {
             let mut suppression = SuppressionLoop::new(arm, law, law)
                 .with_recourse(Recourse::Nearest { force_budget: 1.0 })
                 .with_ramp(0.02)
                 .with_rate_limit(SVector::repeat(50.0))
-                .with_rated_torque(SVector::repeat(rated));
+                .with_rated_torque(SVector::repeat(*rated));
             let (mut limited, mut broken) = (0, 0);
             let count = allocations(|| {
                 for i in 0..100 {
@@ -124,8 +124,8 @@ fn loops(arm: &impl Arm<7>) {
 
 #[test]
 fn a_suppression_loop_allocates_nothing() {
-    loops(&Ssrms);
-    loops(&Ssrms::CHAIN);
+    loops(&Ssrms, &[f64::INFINITY, 250.0, 1.0]);
+    loops(&Ssrms::CHAIN, &[250.0]);
 }
 
 #[test]
