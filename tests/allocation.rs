@@ -76,7 +76,7 @@ fn cycles(arm: &impl Arm<7>) {
 }
 
 /// A loop through all it can meet: every law, a lock, another one, a switch, limits that bind, numbers that are none.
-fn loops(arm: &impl Arm<7>, rated: &[f64]) {
+fn loops(arm: &impl Arm<7>, every: usize, rated: &[f64]) {
     let wrench = Vector6::new(20.0, 20.0, 20.0, 0.0, 0.0, 0.0);
     let k = SVector::repeat(1e7);
     let samples = [SVector::repeat(5.0), SVector::repeat(-3.0)];
@@ -95,7 +95,7 @@ fn loops(arm: &impl Arm<7>, rated: &[f64]) {
                 .with_rated_torque(SVector::repeat(*rated));
             let (mut limited, mut broken) = (0, 0);
             let count = allocations(|| {
-                for i in 0..100 {
+                for i in (0..100).step_by(every) {
                     let time = 1e-3 * f64::from(i);
                     let state = JointState {
                         q: SVector::from([0.7, -0.6, 1.3, -2.0, 0.3, 3.4, 0.0]).add_scalar(time),
@@ -124,8 +124,8 @@ fn loops(arm: &impl Arm<7>, rated: &[f64]) {
 
 #[test]
 fn a_suppression_loop_allocates_nothing() {
-    loops(&Ssrms, &[f64::INFINITY, 250.0, 1.0]);
-    loops(&Ssrms::CHAIN, &[250.0]);
+    loops(&Ssrms, 1, &[f64::INFINITY, 250.0, 1.0]);
+    loops(&Ssrms::CHAIN, 5, &[250.0]);
 }
 
 #[test]
