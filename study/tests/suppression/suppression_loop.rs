@@ -302,6 +302,45 @@ fn held_back_a_law_that_keeps_the_force_keeps_it() {
     assert!(limited > 50 && arrived, "{limited}");
 }
 
+/// The cycle that takes a lock is exempt from the rate limit, and none after it.
+#[test]
+fn a_lock_is_taken_at_once_whatever_the_rate_limit() {
+    let mut slow = on_line()
+        .with_rate_limit(SVector::repeat(20.0))
+        .with_ramp(0.2);
+    let cycles = run(&mut slow, 990, 1100, 0);
+    let (last, now) = (&cycles[9], &cycles[10]);
+    let lock = locked(&[1]);
+    let step = lock.without(&(now.control.torque - last.control.torque));
+    let planned = now.control.planned - last.control.torque;
+    let expected = without_choice(&state(&[1], 10.0, 10.0), lock, &planned);
+    assert!((step.norm() - expected).abs() < 1e-9 && !now.rate_limited);
+    let jump = now.control.compensation - last.control.compensation;
+    assert!(jump.amax() > 20.0 * PERIOD);
+    assert!(cycles[11..].iter().any(|cycle| cycle.rate_limited));
+}
+
+/// What the cut of an overloaded plan bends is no compensation to go on from.
+#[test]
+fn after_an_overload_the_force_is_kept_again_at_once() {
+    let motion = paper_like_motion();
+    let mut slow = on_line()
+        .with_rated_torque(SVector::repeat(300.0))
+        .with_rate_limit(SVector::repeat(5.0));
+    let (mut overloaded, mut after) = (0, 0);
+    for i in 0..400 {
+        let time = 0.05 * f64::from(i);
+        let cycle = slow.cycle(time, &motion.state(time), &paper_force(), NONE);
+        if cycle.control.status == Status::Overloaded {
+            overloaded += 1;
+        } else {
+            assert!(cycle.control.force_error.norm() < 1e-9);
+            after += i32::from(overloaded > 0 && cycle.rate_limited);
+        }
+    }
+    assert!(overloaded > 0 && after > 0, "{overloaded} {after}");
+}
+
 #[test]
 fn joints_may_lock_one_after_another_and_be_freed() {
     let motion = paper_like_motion();
@@ -515,7 +554,7 @@ fn through_a_singular_pose_it_stays_bounded() {
     for joint in &mut arm.joints {
         joint.d = 0.0;
     }
-    for rate in [f64::INFINITY, 100.0] {
+    for rate in [f64::INFINITY, 100.0, 0.1] {
         let mut suppression = SuppressionLoop::on_line(&arm, OnLine::equal())
             .with_rated_torque(SVector::repeat(f64::INFINITY))
             .with_rate_limit(SVector::repeat(rate));
