@@ -1,15 +1,20 @@
-//! One control cycle on the SSRMS (torque, compensation, margins) with joint 2 locked, and the part of it that is generated code.
+//! One control cycle on the SSRMS (torque, compensation, margins) with joint 2 locked, and the part of it that is generated code;
+//! the on-line law and the loop with a memory, all joints still moving, which is the most there is to do.
 //!
 //! `cargo bench --bench cycle`, then `benches/ratios.py` for the shares.
 
+use std::cell::{Cell, RefCell};
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use ulna::control::compensation::FreeTorque;
+use ulna::control::compensation::{FreeTorque, TaskPose};
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::proof::states;
-use ulna::{Arm, Compensation, Controller, JointState, LockedJoints, Projector};
+use ulna::{
+    Arm, Compensation, Controller, JointState, LockedJoints, OnLine, Projector, Recourse,
+    SuppressionLaw, SuppressionLoop,
+};
 use ulna_generated::Ssrms;
 
 /// So many states in turn, that no branch is learnt by heart.
@@ -70,6 +75,31 @@ fn cycle(criterion: &mut Criterion) {
     time("dynamically_consistent", &|state| {
         black_box(consistent.cycle(state, &wrench, locked));
     });
+    // The law alone: what it adds to a cycle.
+    let law = OnLine::equal();
+    time("on_line_law", &|state| {
+        let pose = TaskPose::new(&Ssrms, &state.q, LockedJoints::NONE, Projector::Static);
+        black_box(law.compensation(&Ssrms, state, &pose, LockedJoints::NONE));
+    });
+    for (name, before) in [
+        ("loop_on_line", SuppressionLaw::OnLine(law)),
+        (
+            "loop_projected",
+            SuppressionLaw::Coefficients(Compensation::Projected(coefficients)),
+        ),
+    ] {
+        let suppression = RefCell::new(
+            SuppressionLoop::new(&Ssrms, before, before)
+                .with_rate_limit(SVector::repeat(1e3))
+                .with_recourse(Recourse::Nearest { force_budget: 1.0 }),
+        );
+        let time_of = Cell::new(0.0);
+        time(name, &|state| {
+            time_of.set(time_of.get() + 1e-3);
+            let mut suppression = suppression.borrow_mut();
+            black_box(suppression.cycle(time_of.get(), state, &wrench, LockedJoints::NONE));
+        });
+    }
     let generic = Controller::new(&Ssrms::CHAIN, Compensation::PerJoint(coefficients));
     time("generic", &|state| {
         black_box(generic.cycle(state, &wrench, locked));

@@ -37,7 +37,8 @@
 //!   for a file to check in. What they write needs this crate and nothing else.
 //! - [`SerialChain`]: the same by textbook formulas, for any arm at run time; `ulna-table` reads it from a table.
 //! - [`proof`]: one arm compared with another, and what rounding explains.
-//! - [`control`]: planned motions, joints that lock, and the [`Controller`] that suppresses the impact of it.
+//! - [`control`]: planned motions, joints that lock, and what suppresses the impact of it: the [`Controller`], which has no memory,
+//!   for a search; the [`SuppressionLoop`], which has, for a real loop.
 //!
 //! # Features
 //!
@@ -71,6 +72,7 @@ pub use control::compensation::{
     Compensation, Controller, Cycle, Law, OnLine, Projector, Status, Weighting,
 };
 pub use control::failure::{Failure, LockedJoints};
+pub use control::suppression::{LoopCycle, Recourse, Schedule, SuppressionLaw, SuppressionLoop};
 pub use control::trajectory::{
     JointLimits, JointState, PointToPoint, Profile, ProfileShape, Trajectory, Trapezoid,
 };

@@ -4,8 +4,8 @@ use ulna::control::compensation::FreeTorque;
 use ulna::control::failure::impact_torque;
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::{
-    Arm, Compensation, Controller, Failure, JointLimits, JointState, LockedJoints, Projector,
-    SerialChain, Status, Trapezoid,
+    Arm, Compensation, Controller, Failure, JointLimits, JointState, LockedJoints, OnLine,
+    Projector, Recourse, Schedule, SerialChain, Status, SuppressionLaw, SuppressionLoop, Trapezoid,
 };
 use ulna_generated::Ssrms;
 use ulna_study::simulation::{Brake, Control, Feedback, Resolution, Simulation};
@@ -73,6 +73,59 @@ fn cycles(arm: &impl Arm<7>) {
             Status::NotFinite
         ]
     );
+}
+
+/// A loop through all it can meet: every law, a lock, another one, a switch, limits that bind, numbers that are none.
+fn loops(arm: &impl Arm<7>, every: usize, rated: &[f64]) {
+    let wrench = Vector6::new(20.0, 20.0, 20.0, 0.0, 0.0, 0.0);
+    let k = SVector::repeat(1e7);
+    let samples = [SVector::repeat(5.0), SVector::repeat(-3.0)];
+    let laws = [
+        SuppressionLaw::None,
+        SuppressionLaw::Coefficients(Compensation::PerJoint(k)),
+        SuppressionLaw::Schedule(Schedule::new(0.0, 0.05, &samples).unwrap()),
+        SuppressionLaw::OnLine(OnLine::equal()),
+    ];
+    for law in laws {
+        for rated in rated {
+            let mut suppression = SuppressionLoop::new(arm, law, law)
+                .with_recourse(Recourse::Nearest { force_budget: 1.0 })
+                .with_ramp(0.02)
+                .with_rate_limit(SVector::repeat(50.0))
+                .with_rated_torque(SVector::repeat(*rated));
+            let (mut limited, mut broken) = (0, 0);
+            let count = allocations(|| {
+                for i in (0..100).step_by(every) {
+                    let time = 1e-3 * f64::from(i);
+                    let state = JointState {
+                        q: SVector::from([0.7, -0.6, 1.3, -2.0, 0.3, 3.4, 0.0]).add_scalar(time),
+                        qd: SVector::repeat(if i == 60 { f64::NAN } else { 0.2 }),
+                        qdd: SVector::repeat(0.02),
+                    };
+                    let set: &[usize] = match i {
+                        ..30 => &[],
+                        30..40 => &[1],
+                        _ => &[1, 3],
+                    };
+                    if i == 80 {
+                        suppression.switch(SuppressionLaw::OnLine(OnLine::equal()));
+                    }
+                    let locked = LockedJoints::new(set).unwrap();
+                    let cycle = suppression.cycle(time, &state, &wrench, locked);
+                    limited += u32::from(cycle.rate_limited);
+                    broken += u32::from(cycle.control.status == Status::NotFinite);
+                }
+            });
+            assert_eq!((count, broken), (0, 1));
+            assert!(limited > 0);
+        }
+    }
+}
+
+#[test]
+fn a_suppression_loop_allocates_nothing() {
+    loops(&Ssrms, 1, &[f64::INFINITY, 250.0, 1.0]);
+    loops(&Ssrms::CHAIN, 5, &[250.0]);
 }
 
 #[test]

@@ -70,6 +70,41 @@ fn all_doors_lead_to_the_same_code() {
     assert_eq!(outputs[0], outputs[2]);
 }
 
+/// A row of the example's table: its numbers.
+fn row(output: &str, name: &str) -> Vec<f64> {
+    let line = output.lines().find(|line| line.starts_with(name));
+    let line = line.unwrap_or_else(|| panic!("no row {name:?} in\n{output}"));
+    line[22..]
+        .split_whitespace()
+        .map(|number| number.parse().unwrap())
+        .collect()
+}
+
+#[test]
+fn a_loop_of_ones_own_takes_most_of_the_step() {
+    let example = Crate::of_repository("examples/control_loop");
+    example.assert_lock_file_fits();
+    let output = example.run();
+    // Step, peak, force error, U, off plan.
+    let [none, recourse, on_line, watched, bent] = [
+        "none",
+        "recourse",
+        "on-line law",
+        "joint 3 watched",
+        "the same, 5 N",
+    ]
+    .map(|name| row(&output, name));
+    assert!(none[0] > 1.0 && none[3] == 0.0, "{output}");
+    for exact in [&recourse, &on_line, &watched] {
+        assert!(exact[0] < none[0] && exact[2] == 0.0, "{output}");
+    }
+    assert!(
+        on_line[0] < recourse[0] && watched[0] < on_line[0],
+        "{output}"
+    );
+    assert!(bent[0] < 0.2 * none[0] && bent[2] <= 5.0, "{output}");
+}
+
 #[test]
 fn a_generated_arm_links_without_the_standard_library() {
     let firmware = Crate::of_repository("tests/no_std");

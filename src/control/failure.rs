@@ -61,6 +61,18 @@ impl<const N: usize> LockedJoints<N> {
         self.0.count_ones() as usize
     }
 
+    /// The joints that are locked in this set and not in `other`.
+    #[must_use]
+    pub const fn difference(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    /// The joints that are locked in this set or in `other`.
+    #[must_use]
+    pub const fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
     /// The locked joints, counted from 0.
     pub fn iter(self) -> impl Iterator<Item = usize> {
         (0..N).filter(move |joint| self.contains(*joint))

@@ -79,44 +79,59 @@ impl<'a, A: Arm<N> + ?Sized, const N: usize> Controller<'a, A, N> {
         let pose = TaskPose::new(self.arm, &state.q, locked, self.projector);
         let planned = self.arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
             + pose.jacobian.tr_mul(wrench);
-        let conditioning = pose.conditioning;
         let limits = Limits {
             rated_torque: self.rated_torque,
             locked,
         };
         let wanted = pose.compensation(&self.compensation);
         let (torque, cut) = limits.cut(&planned, &wanted, self.compensation.law());
+        if !(state.is_finite() && wrench.iter().all(|x| x.is_finite())) {
+            return Cycle::nothing(self.rated_torque);
+        }
+        Cycle::close(&pose, planned, torque, cut, self.rated_torque)
+    }
+}
+
+impl<const N: usize> Cycle<N> {
+    /// What `torque` amounts to in `pose`; [`nothing`](Self::nothing) if it is not finite. `cut`: what rated torques made of it.
+    #[inline]
+    pub(crate) fn close(
+        pose: &TaskPose<N>,
+        planned: SVector<f64, N>,
+        torque: SVector<f64, N>,
+        cut: Status,
+        rated_torque: SVector<f64, N>,
+    ) -> Self {
         let compensation = torque - planned;
         let force_error = pose.null_space.static_wrench(&compensation);
-        let singular = if conditioning < NEAR_SINGULAR {
+        let singular = if pose.conditioning < NEAR_SINGULAR {
             Status::NearSingular
         } else {
             Status::Nominal
         };
-        let finite = state.is_finite()
-            && torque.iter().chain(&planned).all(|x| x.is_finite())
-            && wrench.iter().chain(&force_error).all(|x| x.is_finite());
-        if !finite {
-            return self.nothing();
+        let mut results = torque.iter().chain(&planned).chain(&force_error);
+        if !results.all(|x| x.is_finite()) {
+            return Self::nothing(rated_torque);
         }
-        Cycle {
+        Self {
             torque,
             planned,
             compensation,
             force_error,
-            margins: self.rated_torque - torque.abs(),
-            conditioning,
+            margins: rated_torque - torque.abs(),
+            conditioning: pose.conditioning,
             status: cut.max(singular),
         }
     }
 
-    fn nothing(&self) -> Cycle<N> {
-        Cycle {
+    /// [`Status::NotFinite`].
+    pub(crate) fn nothing(rated_torque: SVector<f64, N>) -> Self {
+        Self {
             torque: SVector::zeros(),
             planned: SVector::zeros(),
             compensation: SVector::zeros(),
             force_error: Vector6::zeros(),
-            margins: self.rated_torque,
+            margins: rated_torque,
             conditioning: 0.0,
             status: Status::NotFinite,
         }

@@ -22,6 +22,7 @@ use nalgebra::{SVector, Vector6};
 
 pub use controller::{Controller, Cycle};
 pub use limits::Limits;
+pub(crate) use on_line::nearest;
 pub use on_line::{OnLine, Weighting};
 pub use pose::{Projector, TaskPose};
 

@@ -20,13 +20,13 @@
 //! in which nothing grows as `P_kk` goes to 0, and whose solution lies in the null space by itself.
 //!
 //! A lock of k divides the volume of J's rows by `1 / √P_kk = 1 / |P e_k|`: where that is near 0, `J_k` is near-singular, there is no
-//! recourse after the lock, and w_k fades as U does near singular poses (the rule at [`super`]'s head).
+//! recourse after the lock, and w_k and `s_k` fade as U does near singular poses (the rule at [`super`]'s head).
 //! All bounds: `|U| ≤ √(Σ w_k |s_k|²) / 2δ`, so that U is bounded wherever the arm is.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{SMatrix, SVector, Vector6};
 
-use super::TaskPose;
 use super::factor::Factor;
+use super::{FreeTorque, TaskPose};
 use crate::control::failure::LockedJoints;
 use crate::control::null_space::{NEAR_SINGULAR, SINGULAR};
 use crate::control::trajectory::JointState;
@@ -164,16 +164,28 @@ impl<const N: usize> OnLine<N> {
         wanted: &SVector<f64, N>,
         force_budget: f64,
     ) -> SVector<f64, N> {
-        let mut u = pose_after.project_static(wanted);
-        if force_budget > 0.0 {
-            let mut wrench = pose_after.null_space.static_wrench(wanted);
-            let length = wrench.norm();
-            if length > force_budget {
-                wrench *= force_budget / length;
-            }
-            u += pose_after.static_torque(&wrench);
+        pose_after.free_torque(&nearest(pose_after, wanted, force_budget))
+    }
+}
+
+/// What [`OnLine::recourse`] takes of `wanted`.
+#[inline]
+pub(crate) fn nearest<const N: usize>(
+    pose: &TaskPose<N>,
+    wanted: &SVector<f64, N>,
+    force_budget: f64,
+) -> FreeTorque<N> {
+    let mut wrench = Vector6::zeros();
+    if force_budget > 0.0 {
+        wrench = pose.null_space.static_wrench(wanted);
+        let length = wrench.norm();
+        if length > force_budget {
+            wrench *= force_budget / length;
         }
-        u
+    }
+    FreeTorque {
+        torque: *wanted,
+        wrench,
     }
 }
 
@@ -186,7 +198,7 @@ struct Risk<const N: usize> {
     direction: SVector<f64, N>,
     /// `|m_k|² = 1 − P_kk`.
     gain: f64,
-    /// `m_k·s_k`, N·m (N).
+    /// `m_k·s_k`, N·m (N), faded likewise: where a single joint is at risk, its weight alone does not decide.
     along: f64,
     /// `|s_k|²`.
     step_squared: f64,
@@ -224,7 +236,7 @@ impl<const N: usize> Risk<N> {
             weight: weight * fade,
             direction,
             gain: others.norm_squared(),
-            along: others.dot(&step),
+            along: others.dot(&step) * fade,
             step_squared: step.norm_squared(),
         }
     }

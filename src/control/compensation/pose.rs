@@ -2,8 +2,8 @@
 
 use nalgebra::{SMatrix, SVector, Vector6};
 
-use super::Compensation;
 use super::whitening::Whitening;
+use super::{Compensation, FreeTorque};
 use crate::control::failure::LockedJoints;
 use crate::control::null_space::{NEAR_SINGULAR, NullSpace, SINGULAR};
 use crate::{Arm, TaskRows};
@@ -108,6 +108,17 @@ impl<const N: usize> TaskPose<N> {
             return SVector::zeros();
         }
         self.null_space.project(&self.locked.without(x)) * self.fade
+    }
+
+    /// `P z + Jᵀ f` with the static projector, times the factor of the rule near singular poses: the static tool wrench is off by f.
+    #[inline]
+    pub fn free_torque(&self, free: &FreeTorque<N>) -> SVector<f64, N> {
+        self.project_static(&free.torque) + self.static_torque(&free.wrench)
+    }
+
+    /// The factor of the rule near singular poses: 1 but there, 0 on the singular set.
+    pub fn fade(&self) -> f64 {
+        self.fade
     }
 
     /// Whether the moving joints have as many independent rows of J as there are of them.

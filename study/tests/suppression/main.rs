@@ -14,4 +14,5 @@ mod robust;
 mod search;
 mod singular;
 mod step;
+mod suppression_loop;
 mod trajectory;

@@ -106,6 +106,7 @@ fn dense<const N: usize>(
     state: &JointState<N>,
     locked: LockedJoints<N>,
     weights: &SVector<f64, N>,
+    fades: &SVector<f64, N>,
     damping: f64,
 ) -> DVector<f64> {
     let whole = task_rows(chain, &state.q, locked);
@@ -117,7 +118,7 @@ fn dense<const N: usize>(
         let joints: Vec<usize> = locked.iter().chain([k]).collect();
         let lock = LockedJoints::new(&joints).unwrap();
         let after = task_rows(chain, &state.q, lock);
-        let scale = weights[k].sqrt();
+        let scale = (weights[k] * fades[k]).sqrt();
         let mut healthy = DMatrix::identity(N, N) * scale;
         for joint in lock.iter() {
             healthy[(joint, joint)] = 0.0;
@@ -130,7 +131,7 @@ fn dense<const N: usize>(
             .view_mut((rows, N * (k + 1)), (N, N))
             .copy_from(&(&healthy * projector(&after, lock)));
         let step = step(chain, &held, LockedJoints::new(&[k]).unwrap());
-        let step = DVector::from_column_slice(lock.without(&step).as_slice());
+        let step = DVector::from_column_slice(lock.without(&step).as_slice()) * fades[k];
         right.rows_mut(rows, N).copy_from(&(-&healthy * step));
     }
     matrix
@@ -153,11 +154,11 @@ fn for_several_joints_at_risk_it_is_the_dense_least_squares() {
                 }
                 let weights = SVector::from_fn(|i, _| [1.0, 0.2, 3.0][i % 3]);
                 // A lock that leaves no recourse fades: by the volume that is left of J's rows.
-                let faded = SVector::from_fn(|k, _| {
+                let fades = SVector::from_fn(|k, _| {
                     let joints: Vec<usize> = locked.iter().chain([k]).collect();
                     let lock = LockedJoints::new(&joints).unwrap();
                     let left = volume(&task_rows(chain, &state.q, lock)) / volume(&whole);
-                    weights[k] * ((left - 1e-6) / (1e-2 - 1e-6)).clamp(0.0, 1.0)
+                    ((left - 1e-6) / (1e-2 - 1e-6)).clamp(0.0, 1.0)
                 });
                 for damping in [0.03, 0.5] {
                     let law = OnLine {
@@ -168,7 +169,7 @@ fn for_several_joints_at_risk_it_is_the_dense_least_squares() {
                     };
                     let pose = pose_of(chain, &state, locked);
                     let found = law.compensation(chain, &state, &pose, locked);
-                    let expected = dense(chain, &state, locked, &faded, damping);
+                    let expected = dense(chain, &state, locked, &weights, &fades, damping);
                     let size = expected.amax().max(1.0);
                     let found = DVector::from_column_slice(found.as_slice());
                     let error = (found - expected).amax() / size;
@@ -361,6 +362,51 @@ fn whatever_the_pose_and_the_numbers_it_is_finite_and_bounded() {
         }
     }
     on_every_arm!(check);
+}
+
+/// Three parallel joints and a wrist: one direction of null space, in which a joint has no part where the two others are in line with the tool.
+#[test]
+fn where_a_lock_leaves_no_recourse_its_joint_is_let_go_without_a_jump() {
+    let locked = LockedJoints::new(&[0, 1, 6]).unwrap();
+    let at = |elbow: f64| {
+        let mut state = paper_like_motion().state(10.0);
+        state.q[4] = elbow;
+        let pose = pose_of(&Ssrms, &state, locked);
+        let share = |k| pose.null_space.project(&only(k)).norm();
+        let of = |k| known(k).compensation(&Ssrms, &state, &pose, locked);
+        // The wrist alone moves the tool out of the plane.
+        assert!(share(5) < 1e-12 && of(5).amax() == 0.0);
+        (pose.conditioning, share(2), of(2))
+    };
+    // Where joint 3 has the least part, to the last digits.
+    let nearest = (0..6000)
+        .map(|i| -3.0 + 1e-3 * f64::from(i))
+        .filter(|elbow| at(*elbow).0 > 0.05)
+        .min_by(|a, b| at(*a).1.total_cmp(&at(*b).1))
+        .unwrap();
+    let (mut from, mut to) = (nearest - 1e-3, nearest + 1e-3);
+    while to - from > 1e-14 {
+        let (a, b) = (from + (to - from) / 3.0, to - (to - from) / 3.0);
+        (from, to) = if at(a).1 < at(b).1 {
+            (from, b)
+        } else {
+            (a, to)
+        };
+    }
+    let (conditioning, share, u) = at(from);
+    assert!(
+        conditioning > 0.01 && share < 1e-6,
+        "{conditioning} {share}"
+    );
+    assert_eq!(u, SVector::<f64, 7>::zeros());
+    let far = at(from + 0.1);
+    assert!(far.1 > 0.01 && far.2.amax() > 0.1, "{}, {}", far.1, far.2);
+    let mut last = u;
+    for i in 1..=100 {
+        let u = at(from + 1e-3 * f64::from(i)).2;
+        assert!((u - last).amax() < 0.2 * far.2.amax(), "{i}: {u}");
+        last = u;
+    }
 }
 
 /// The SSRMS without the offsets of its joints, stretched out: singular.

@@ -3,8 +3,8 @@
 
 include!(concat!(env!("OUT_DIR"), "/ssrms.rs"));
 
-use ulna::nalgebra::SVector;
-use ulna::{Arm, SerialChain};
+use ulna::nalgebra::{SVector, Vector6};
+use ulna::{Arm, JointState, LockedJoints, OnLine, SerialChain, SuppressionLoop};
 
 /// w_D of the generated arm, or of its textbook chain.
 pub fn manipulability(generated: bool) -> f64 {
@@ -15,6 +15,13 @@ pub fn manipulability(generated: bool) -> f64 {
     } else {
         CHAIN.dynamic_manipulability(&q)
     }
+}
+
+/// A cycle of the suppression loop, the on-line law included.
+pub fn suppression(time: f64, state: &JointState<7>, locked: LockedJoints<7>) -> SVector<f64, 7> {
+    let mut suppression = SuppressionLoop::on_line(&Ssrms, OnLine::equal());
+    let cycle = suppression.cycle(time, state, &Vector6::zeros(), locked);
+    cycle.control.torque
 }
 
 #[panic_handler]

@@ -1,0 +1,3 @@
+fn main() -> Result<(), ulna_codegen::Error> {
+    ulna_codegen::compile_arms(&["bench_arm.toml"])
+}
