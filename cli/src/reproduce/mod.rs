@@ -1,11 +1,13 @@
 //! `ulna reproduce`: the experiments of a scenario.
 
+mod ablation;
 mod csv;
 mod drawings;
 mod page;
 mod results;
 mod table;
 mod words;
+mod worse;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -13,7 +15,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::*;
 use ulna_study::Scenario;
-use ulna_study::experiment::{AnyArm, ExperimentError, ExperimentRunner, Study, Truth};
+use ulna_study::experiment::{Ablation, AnyArm, ExperimentError, ExperimentRunner, Study, Truth};
 use ulna_study::scenario::Experiment;
 
 use crate::arms::{ForArm, GENERATED, with_arm};
@@ -61,10 +63,12 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     output::check_folder(&arguments.output)?;
     let findings = with_arm(scenario.arm(), Findings::of(&scenario))??;
     table::write(&scenario, &findings, out)?;
+    ablation::write(&findings.ablations, out)?;
     out.flush()?;
     let mut files = Files::default();
     files.add(PAGE, page::write(&scenario, &findings)?);
     results::add(&mut files, &scenario, &findings)?;
+    ablation::add(&mut files, &findings.ablations)?;
     drawings::add(&mut files, &scenario, &findings)?;
     let written = files.write_to(&arguments.output)?;
     console::note(&format!(
@@ -81,6 +85,8 @@ struct Findings {
     studies: Vec<Study>,
     /// The first experiment simulated, at every failure time; `Err` if that cannot be.
     truths: Result<Vec<Truth>, ExperimentError>,
+    /// The first experiment with other fields and on one side of the lock, at every failure time.
+    ablations: Vec<Ablation>,
 }
 
 impl Findings {
@@ -107,7 +113,8 @@ impl ForArm for Work<'_> {
         let runner = ExperimentRunner::new(arm, self.0)?;
         let study = |experiment: &Experiment, time| runner.study(experiment, time);
         let truth = |experiment: &Experiment, time| runner.truth(experiment, time);
-        explore(self.0, &study, &truth)
+        let ablation = |experiment: &Experiment, time| runner.ablation(experiment, time);
+        explore(self.0, &study, &truth, &ablation)
     }
 }
 
@@ -119,6 +126,7 @@ fn explore(
     scenario: &Scenario,
     study: &Attempt<'_, Study>,
     truth: &Attempt<'_, Truth>,
+    ablation: &Attempt<'_, Ablation>,
 ) -> Result<Findings, ExperimentError> {
     let (experiments, failure_times) = (scenario.experiments(), scenario.failure_times());
     let pairs = experiments.iter().flat_map(|experiment| {
@@ -133,7 +141,11 @@ fn explore(
     let truths = failure_times
         .par_iter()
         .map(|time| truth(&experiments[0], *time));
+    let ablations = failure_times
+        .par_iter()
+        .map(|time| ablation(&experiments[0], *time));
     Ok(Findings {
+        ablations: ablations.collect::<Result<_, _>>()?,
         studies: studies.collect::<Result<_, _>>()?,
         truths: truths.collect(),
     })

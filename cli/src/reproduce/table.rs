@@ -7,8 +7,8 @@ use comfy_table::{CellAlignment, Table};
 use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
 use ulna_study::scenario::{Experiment, Reference, Scenario};
 
-use super::Findings;
 use super::words::{name, seconds, significant, solve_status, what_locks};
+use super::{Findings, worse};
 
 /// Columns of a table of impacts, one for each method.
 const METHODS: [(SearchMethod, &str); 4] = [
@@ -47,6 +47,7 @@ pub(super) fn write(
                     writeln!(out, " {title}: {error}")?;
                 }
             }
+            worse::write(study, &METHODS, out)?;
         }
         let exponent = exponent(&studies);
         writeln!(out, "\ncoefficients k_d of Eq. 16, in 1e{exponent}")?;
@@ -287,7 +288,7 @@ fn convergence(truths: &[Truth]) -> String {
 }
 
 /// Without lines; the columns `left` to the left, numbers to the right.
-fn plain(mut table: Table, left: &[usize]) -> String {
+pub(super) fn plain(mut table: Table, left: &[usize]) -> String {
     table.load_style(presets::NOTHING);
     for (index, column) in table.column_iter_mut().enumerate() {
         if !left.contains(&index) {

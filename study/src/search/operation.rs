@@ -226,8 +226,8 @@ impl<const N: usize> Operation<N> {
         worse_joints(step.as_slice(), impact.as_slice(), &locked)
     }
 
-    /// The largest of |Δτ̃_i| / |step_i| over the joints of `scope` that have a step without compensation; 0 if none has.
-    pub fn worst_ratio(&self, assessment: &Assessment<N>, scope: Scope) -> f64 {
+    /// The joint of `scope` with the largest |Δτ̃_i| / |step_i|, counted from 0, and that ratio; `None` if no joint has a step without compensation.
+    pub fn worst_joint(&self, assessment: &Assessment<N>, scope: Scope) -> Option<(usize, f64)> {
         let step = self.step();
         let planned = [self.before(), self.after()].map(|sample| sample.planned.amax());
         let rounding = ROUNDING * planned[0].max(planned[1]);
@@ -235,8 +235,14 @@ impl<const N: usize> Operation<N> {
             let counts = scope == Scope::All || !self.failure.joints.contains(*joint);
             counts && step[*joint].abs() > rounding
         });
-        let ratios = joints.map(|joint| (assessment.impact[joint] / step[joint]).abs());
-        ratios.fold(0.0, f64::max)
+        let ratios = joints.map(|joint| (joint, (assessment.impact[joint] / step[joint]).abs()));
+        ratios.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The ratio of [`worst_joint`](Self::worst_joint); 0 if there is none.
+    pub fn worst_ratio(&self, assessment: &Assessment<N>, scope: Scope) -> f64 {
+        self.worst_joint(assessment, scope)
+            .map_or(0.0, |(_, ratio)| ratio)
     }
 
     /// What `compensation` does to the operation, cut at rated torques as a control cycle cuts it.
