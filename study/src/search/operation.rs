@@ -26,11 +26,17 @@ pub struct OperationOptions<const N: usize> {
     /// so that of compensations that are nearly as good the cheapest is found.
     ///
     /// Least norms become least `‖Δτ̃‖² + e² (‖U‖² + ‖U'‖²)`, with U just before and U' just after the lock; other objectives alike.
+    /// Under Eq. 16 a joint is left alone whose compensation is not worth it ([`cancel_per_joint`](super::cancel_per_joint)).
     /// At least 0; with 0 impact alone counts.
     pub effort: f64,
 }
 
-/// The default of [`OperationOptions::effort`].
+/// The default of [`OperationOptions::effort`]: a compensation is not worth it that takes less than a thousandth of itself from the impact.
+///
+/// Measured on the paper-like motion, one of joints 1 to 6 locking at 1, 2 to 19 s, without rated torques and with those of Section 5.3:
+/// no norm that Eq. 20 or the optimum leaves grows by more than 1.5·10⁻⁶ of itself, while the torques of Eq. 20 fall to down to a tenth
+/// (its coefficients share a direction, and many leave the same). Eq. 16 no longer spends 7·10⁵ N·m on a joint (joint 1 locking at 18 s).
+/// At 0.01 norms grow by up to 0.7 %.
 pub const EFFORT: f64 = 1e-3;
 
 impl<const N: usize> Default for OperationOptions<N> {
