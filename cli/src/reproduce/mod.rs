@@ -1,5 +1,6 @@
 //! `ulna reproduce`: the experiments of a scenario.
 
+mod ablation;
 mod bounds;
 mod csv;
 mod drawings;
@@ -9,6 +10,7 @@ mod plan_steps;
 mod results;
 mod table;
 pub(crate) mod words;
+mod worse;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -17,7 +19,8 @@ use clap::Args;
 use rayon::prelude::*;
 use ulna_study::Scenario;
 use ulna_study::experiment::{
-    AnyArm, ExperimentError, ExperimentRunner, LimitedSuppression, PlanSteps, Study, Truth,
+    Ablation, AnyArm, ExperimentError, ExperimentRunner, LimitedSuppression, PlanSteps, Study,
+    Truth,
 };
 use ulna_study::scenario::{Experiment, ScenarioErrors};
 
@@ -58,10 +61,12 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     output::check_folder(&arguments.output)?;
     let findings = with_arm(scenario.arm(), Findings::of(&scenario))??;
     table::write(&scenario, &findings, out)?;
+    ablation::write(&findings.ablations, out)?;
     out.flush()?;
     let mut files = Files::default();
     files.add(PAGE, page::write(&scenario, &findings)?);
     results::add(&mut files, &scenario, &findings)?;
+    ablation::add(&mut files, &findings.ablations)?;
     drawings::add(&mut files, &scenario, &findings)?;
     let written = files.write_to(&arguments.output)?;
     console::note(&format!(
@@ -95,6 +100,8 @@ struct Findings {
     plan_steps: PlanSteps,
     /// What rated torques cost, for every experiment that has them, at every failure time at which they can be kept.
     limited: Vec<LimitedSuppression>,
+    /// The first experiment with other fields and on one side of the lock, at every failure time.
+    ablations: Vec<Ablation>,
 }
 
 impl Findings {
@@ -123,7 +130,8 @@ impl ForArm for Work<'_> {
         let truth = |experiment: &Experiment, time| runner.truth(experiment, time);
         let limited = |experiment: &Experiment, time| runner.limited(experiment, time);
         let plan_steps = runner.plan_steps(&self.0.experiments()[0]);
-        explore(self.0, plan_steps, &study, &truth, &limited)
+        let ablation = |experiment: &Experiment, time| runner.ablation(experiment, time);
+        explore(self.0, plan_steps, &study, &truth, &limited, &ablation)
     }
 }
 
@@ -137,6 +145,7 @@ fn explore(
     study: &Attempt<'_, Study>,
     truth: &Attempt<'_, Truth>,
     limited: &Attempt<'_, Option<LimitedSuppression>>,
+    ablation: &Attempt<'_, Ablation>,
 ) -> Result<Findings, ExperimentError> {
     let (experiments, failure_times) = (scenario.experiments(), scenario.failure_times());
     let pairs = experiments.iter().flat_map(|experiment| {
@@ -155,7 +164,11 @@ fn explore(
     let truths = failure_times
         .par_iter()
         .map(|time| truth(&experiments[0], *time));
+    let ablations = failure_times
+        .par_iter()
+        .map(|time| ablation(&experiments[0], *time));
     Ok(Findings {
+        ablations: ablations.collect::<Result<_, _>>()?,
         studies: studies.collect::<Result<_, _>>()?,
         truths: truths.collect(),
         plan_steps,

@@ -7,7 +7,7 @@ use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
 use ulna_study::scenario::{Experiment, Reference, Scenario};
 
 use super::words::{name, seconds, significant, solve_status, what_locks};
-use super::{Findings, bounds, limited, plan_steps};
+use super::{Findings, bounds, limited, plan_steps, worse};
 use crate::columns::plain;
 
 /// Columns of a table of impacts, one for each method.
@@ -47,6 +47,7 @@ pub(super) fn write(
                     writeln!(out, " {title}: {error}")?;
                 }
             }
+            worse::write(study, &METHODS, out)?;
         }
         let exponent = exponent(&studies);
         writeln!(out, "\ncoefficients k_d of Eq. 16, in 1e{exponent}")?;

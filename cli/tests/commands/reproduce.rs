@@ -145,6 +145,7 @@ fn everything_is_printed_and_written() {
         "plan_steps.csv",
         "truth.csv",
         "convergence.csv",
+        "ablation.csv",
     ];
     let mut expected: BTreeSet<String> = tables.map(str::to_owned).into();
     for section in ["5.2", "5.3", "5.4"] {
@@ -203,6 +204,34 @@ fn tables_stand_beside_the_papers(out: &str) {
     assert!(out.contains("with ever shorter brakes"), "{out}");
     what_rated_torques_cut_is_printed(out);
     the_plans_steps_stand_beside_the_locks(out);
+    // No norm without the joints that pay for it, and what proves that some have to.
+    for line in [
+        " Eq.16: no healthy joint is worse off\n",
+        " Eq.20: worse off: joint 4 at 2.17 times its step, joint 5 at 3.10 times its step, joint 6 at 4.67 times its step; certificate 0.5564 N m per N\n",
+        " optimal: worse off: joint 4 at 2.50 times its step; certificate 0.5564 N m per N\n",
+        " certificate: no law that keeps the tool force lowers joints 1, 2, 3, 4, 5 and 6 all at once; a wrench",
+        " tool force kept and no healthy joint worse off: 39.21 of 42.87 N m, or each of them at 95.1 % of its step at most; the locked joints no worse off either: 42.87 N m\n",
+    ] {
+        assert!(out.contains(line), "{line} is missing in:\n{out}");
+    }
+    // The field decides nothing but the force error, and what acts after the lock alone little.
+    let ablation = |law: &str, what: &str| {
+        let (_, table) = out.split_once("what it is due to, 5.2").unwrap();
+        let mut lines = table.lines().map(str::trim_start);
+        let line = lines.find(|line| line.contains(law) && line.contains(what));
+        let (_, figures) = line.unwrap().split_once(what).unwrap();
+        figures
+            .split_whitespace()
+            .next()
+            .unwrap()
+            .parse::<f64>()
+            .unwrap()
+    };
+    for field in ["grad w_D", "grad w, kinematic", "ones", "random"] {
+        assert!(ablation("Eq.16", field) < 1e-3 && ablation("Eq.20", field) == 9.973);
+    }
+    assert_eq!(ablation("optimal", "before only"), 6.591);
+    assert_eq!(ablation("optimal", "after only"), 42.22);
     assert!(!out.contains(" \n"), "blanks at the end of a line:\n{out}");
 }
 

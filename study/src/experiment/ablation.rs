@@ -88,8 +88,8 @@ pub struct AblationRow {
 pub struct AblationOutcome {
     /// The norm of the steps of the healthy joints, N·m (N).
     pub healthy_after: f64,
-    /// The largest of |Δτ̃_i| / |step_i| over the healthy joints.
-    pub worst_ratio: f64,
+    /// The healthy joint with the largest |Δτ̃_i| / |step_i|, counted from 0, and that ratio; `None` if none has a step.
+    pub worst_joint: Option<(usize, f64)>,
     /// h of Eq. 13 at the lock, the larger norm of just before and just after, N (with the moments' N·m, if the task has any).
     pub force_error: f64,
     /// The largest norm of h over the whole motion.
@@ -144,7 +144,7 @@ fn outcome<const N: usize>(operation: &Operation<N>, found: &Solution<N>) -> Abl
     let assessment = &found.assessment;
     AblationOutcome {
         healthy_after: assessment.healthy_impact,
-        worst_ratio: operation.worst_ratio(assessment, Scope::Healthy),
+        worst_joint: operation.worst_joint(assessment, Scope::Healthy),
         force_error: assessment.force_error(),
         max_force_error: assessment.max_force_error,
         max_compensation: assessment.peak_compensation.amax(),

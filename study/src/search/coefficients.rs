@@ -83,9 +83,10 @@ impl<'a, const N: usize> Maps<'a, N> {
         &self.at[self.operation.lock()]
     }
 
-    /// `‖(U_i, U'_i)‖` of Eq. 16 at the lock, for each joint per coefficient.
-    pub(super) fn effort(&self) -> SVector<f64, N> {
-        SVector::from_fn(|i, _| self.before()[(i, i)].hypot(self.after()[(i, i)]))
+    /// Whether under Eq. 16 joint i's compensation takes more from its step than what it weighs as an effort, `‖(U_i, U'_i)‖` at the lock.
+    pub(super) fn worth(&self, i: usize) -> bool {
+        let (before, after) = (self.before()[(i, i)], self.after()[(i, i)]);
+        (after - before).abs() > self.operation.effort() * before.hypot(after)
     }
 }
 
@@ -101,11 +102,10 @@ pub fn cancel_per_joint<const N: usize>(
     let clock = Instant::now();
     let maps = Maps::new(operation, CoefficientLaw::PerJoint);
     let slopes = step_slopes(operation);
-    let effort = maps.effort();
     let step = operation.step();
     let mut k = SVector::zeros();
     for i in 0..N {
-        let worth = slopes[i].filter(|slope| slope.abs() > operation.effort() * effort[i]);
+        let worth = slopes[i].filter(|_| maps.worth(i));
         let wish = worth.map_or(0.0, |slope| -step[i] / slope);
         k[i] = maps.interval(i, &k)?.nearest(wish);
     }

@@ -28,11 +28,17 @@ pub struct OperationOptions<const N: usize> {
     /// so that of compensations that are nearly as good the cheapest is found.
     ///
     /// Least norms become least `‖Δτ̃‖² + e² (‖U‖² + ‖U'‖²)`, with U just before and U' just after the lock; other objectives alike.
+    /// Under Eq. 16 a joint is left alone whose compensation is not worth it ([`cancel_per_joint`](super::cancel_per_joint)).
     /// At least 0; with 0 impact alone counts.
     pub effort: f64,
 }
 
-/// The default of [`OperationOptions::effort`].
+/// The default of [`OperationOptions::effort`]: a compensation is not worth it that takes less than a thousandth of itself from the impact.
+///
+/// Measured on the paper-like motion, one of joints 1 to 6 locking at 1, 2 to 19 s, without rated torques and with those of Section 5.3:
+/// no norm that Eq. 20 or the optimum leaves grows by more than 1.5·10⁻⁶ of itself, while the torques of Eq. 20 fall to down to a tenth
+/// (its coefficients share a direction, and many leave the same). Eq. 16 no longer spends 7·10⁵ N·m on a joint (joint 1 locking at 18 s).
+/// At 0.01 norms grow by up to 0.7 %.
 pub const EFFORT: f64 = 1e-3;
 
 impl<const N: usize> Default for OperationOptions<N> {
@@ -243,8 +249,8 @@ impl<const N: usize> Operation<N> {
         worse_joints(step.as_slice(), impact.as_slice(), &locked)
     }
 
-    /// The largest of |Δτ̃_i| / |step_i| over the joints of `scope` that have a step without compensation; 0 if none has.
-    pub fn worst_ratio(&self, assessment: &Assessment<N>, scope: Scope) -> f64 {
+    /// The joint of `scope` with the largest |Δτ̃_i| / |step_i|, counted from 0, and that ratio; `None` if no joint has a step without compensation.
+    pub fn worst_joint(&self, assessment: &Assessment<N>, scope: Scope) -> Option<(usize, f64)> {
         let step = self.step();
         let planned = [self.before(), self.after()].map(|sample| sample.planned.amax());
         let rounding = ROUNDING * planned[0].max(planned[1]);
@@ -252,8 +258,14 @@ impl<const N: usize> Operation<N> {
             let counts = scope == Scope::All || !self.failure.joints.contains(*joint);
             counts && step[*joint].abs() > rounding
         });
-        let ratios = joints.map(|joint| (assessment.impact[joint] / step[joint]).abs());
-        ratios.fold(0.0, f64::max)
+        let ratios = joints.map(|joint| (joint, (assessment.impact[joint] / step[joint]).abs()));
+        ratios.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The ratio of [`worst_joint`](Self::worst_joint); 0 if there is none.
+    pub fn worst_ratio(&self, assessment: &Assessment<N>, scope: Scope) -> f64 {
+        self.worst_joint(assessment, scope)
+            .map_or(0.0, |(_, ratio)| ratio)
     }
 
     /// What `compensation` does to the operation, cut at rated torques as a control cycle cuts it.

@@ -106,6 +106,9 @@ impl<const N: usize> Walk<'_, N> {
             if start != 0.0 {
                 self.go(i, start);
             }
+            if self.maps.law == CoefficientLaw::PerJoint && !self.maps.worth(i) {
+                continue;
+            }
             for step in [step, -step] {
                 while self.steps_left > 0
                     && interval.contains(self.k[i] + step)
@@ -129,17 +132,13 @@ impl<const N: usize> Walk<'_, N> {
     fn cost(&self, i: usize, step: f64) -> f64 {
         let impact = self.impact + self.slopes.column(i) * step;
         let (maps, effort) = (&self.maps, self.maps.operation.effort());
-        let mut k = self.k;
-        k[i] += step;
         match maps.law {
-            CoefficientLaw::PerJoint => impact[i].abs() + effort * maps.effort()[i] * k[i].abs(),
+            CoefficientLaw::PerJoint => impact[i].abs(),
             CoefficientLaw::Projected => {
                 let locked = maps.operation.failure().joints;
-                let spent = if effort > 0.0 {
-                    (maps.before() * k).norm_squared() + (maps.after() * k).norm_squared()
-                } else {
-                    0.0
-                };
+                let mut k = self.k;
+                k[i] += step;
+                let spent = (maps.before() * k).norm_squared() + (maps.after() * k).norm_squared();
                 locked.without(&impact).norm_squared() + effort * effort * spent
             }
         }

@@ -124,7 +124,6 @@ fn only_the_force_error_depends_on_the_field() {
         found.assessment.force_error()
     };
     let errors = FIELDS.map(force_error);
-    println!("force errors of Eq. 16 at 18 s: {errors:?}");
     assert!((errors[0] - 9.3).abs() < 0.05, "{errors:?}");
     assert!((errors[1] - 99.8).abs() < 0.05, "{errors:?}");
 }

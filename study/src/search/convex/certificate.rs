@@ -3,6 +3,7 @@
 //! Let D be all changes `U' − U` of the torque steps by compensations that keep the static tool force before and after the lock. D is a linear space.
 //! With an instant lock and away from singular poses it is the null space of J, all columns in it: `J U = 0` and `J U' = 0` give
 //! `J (U' − U) = 0`, and `U' = 0` with any U of the null space reaches all of it. So what acts before the lock alone does as well as both.
+//! (With a control period the arm moves between the two, and D is larger: by torques that grow as the period shrinks.)
 //!
 //! **Certificate.** Let y be orthogonal to D; with D as above, `y = Jᵀ f` for a tool wrench f. Then `y · after = y · step` for every such compensation.
 //! Let further `y_i` have the sign of `step_i`, or be 0, for each joint of the scope, and be 0 outside it

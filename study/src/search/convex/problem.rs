@@ -158,10 +158,8 @@ impl Problem {
             return Ok(Fixed::default());
         };
         let mut all = self.joints(scope).still;
-        let covered = match self.weights(scope)? {
-            Some(found) if exact => found.joints,
-            _ => Vec::new(),
-        };
+        let found = if exact { self.weights(scope)? } else { None };
+        let covered = found.map_or_else(Vec::new, |found| found.joints);
         all.extend(&covered);
         Ok(Fixed {
             all,
