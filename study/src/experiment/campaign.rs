@@ -119,6 +119,7 @@ impl<'a, const N: usize> Campaign<'a, N> {
         let options = OperationOptions {
             sample_period: motion.duration() / Self::SAMPLES,
             rated_torque: rated.map_or(Ok(no_limit), super::rated_torque)?,
+            projector: self.scenario.servo().projector(),
             ..OperationOptions::default()
         };
         let failure = Failure { joints, time };

@@ -6,9 +6,12 @@
 
 mod campaign;
 mod case;
+mod lock;
 mod rollout;
 mod runner;
+mod sweep;
 mod truth;
+mod verdict;
 
 use nalgebra::SVector;
 
@@ -21,7 +24,9 @@ pub use campaign::{Campaign, CampaignCase, CampaignResult};
 pub use case::{Case, Search, SearchMethod, Study, Tradeoff};
 pub use rollout::{Rollout, Series};
 pub use runner::ExperimentRunner;
+pub use sweep::{Felt, Rotors, Sweep, SweepPoint};
 pub use truth::{BrakeImpulse, Truth, TruthRun};
+pub use verdict::{LockVerdict, Verdict};
 
 /// Why a scenario cannot be tried out.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -74,11 +79,15 @@ fn rated_torque<const N: usize>(
     let Some(rated) = experiment.rated_torque() else {
         return Ok(SVector::repeat(f64::INFINITY));
     };
-    let rated = <[f64; N]>::try_from(rated).map_err(|_| ExperimentError::Joints {
-        experiment: rated.len(),
+    for_each_joint(rated)
+}
+
+fn for_each_joint<const N: usize>(numbers: &[f64]) -> Result<SVector<f64, N>, ExperimentError> {
+    let numbers = <[f64; N]>::try_from(numbers).map_err(|_| ExperimentError::Joints {
+        experiment: numbers.len(),
         arm: N,
     })?;
-    Ok(rated.into())
+    Ok(numbers.into())
 }
 
 fn list<const N: usize>(vector: &SVector<f64, N>) -> Vec<f64> {

@@ -64,6 +64,7 @@ fn ssrms(
         feedback: Feedback::NONE,
         control: Control::Continuous,
         brake: Brake::new(lock(&[1], 10.0), duration),
+        reflected_inertia: SVector::zeros(),
     }
 }
 
@@ -78,6 +79,7 @@ fn oblique(motion: &Trapezoid<6>, joint: usize, duration: f64) -> Failing<'_, Ob
         feedback: Feedback::critical(8.0),
         control: Control::Continuous,
         brake: Brake::new(lock(&[joint], 1.2), duration),
+        reflected_inertia: SVector::zeros(),
     }
 }
 

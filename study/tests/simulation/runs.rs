@@ -117,6 +117,7 @@ fn numbers_that_are_none_end_the_run_where_they_appear() {
         feedback: Feedback::NONE,
         control: Control::Continuous,
         brake: Brake::none(),
+        reflected_inertia: SVector::zeros(),
     };
     let (series, outcome) = simulation.record(0.0..5.0, &Resolution::default()).unwrap();
     assert_eq!(outcome.ending, Ending::NotFinite);

@@ -1,6 +1,7 @@
 //! [`ScenarioTable`] → [`Scenario`]: numbers of joints, units, bounds. The last stage that can fail on what the file says.
 
 mod campaign;
+mod drives;
 mod experiment;
 mod failure;
 mod motion;
@@ -62,6 +63,8 @@ impl ScenarioTable {
             duration,
             profile: self.brake.profile.unwrap_or_default(),
         });
+        let servo = reader.servo(&self.servo);
+        let motors = reader.motors(&self.motors);
         let campaign = reader.campaign(&self.campaign);
         let (failed_joints, failure_times) = failure?;
         studies?;
@@ -74,6 +77,8 @@ impl ScenarioTable {
             cycle: cycle?,
             search: search?,
             brake: brake?,
+            servo: servo?,
+            motors: motors?,
             experiments: experiments?,
             campaign: campaign?,
             arm: arm?,
