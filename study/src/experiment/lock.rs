@@ -20,19 +20,17 @@ pub(super) const METHODS: [SearchMethod; 3] = [
     SearchMethod::Projected,
     SearchMethod::Optimal,
 ];
-/// What is simulated before the lock, s: so long the compensation has acted, and moved the arm.
-pub(super) const BEFORE: f64 = 0.25;
-/// A lock takes some hundred steps; what needs many more gets nowhere.
-const RESOLUTION: Resolution = Resolution {
-    tolerance: 1e-10,
-    sample_period: 0.01,
-    steps: 10_000,
-};
+/// A lock takes some hundred steps and a few for each control cycle; what needs many more gets nowhere.
+const STEPS: u32 = 10_000;
+/// See [`STEPS`].
+const STEPS_PER_CYCLE: f64 = 8.0;
 
 /// A lock to simulate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lock<const N: usize> {
     pub(super) brake: Brake<N>,
+    /// What is simulated before the failure, s.
+    pub(super) lead: f64,
     /// [`ServoSettings::gain`](crate::scenario::ServoSettings::gain), rad/s.
     pub(super) gain: f64,
     /// [`Simulation::reflected_inertia`].
@@ -48,7 +46,7 @@ impl<const N: usize> Lock<N> {
     /// From before the failure until just after what has settled.
     pub(super) fn span(&self) -> Range<f64> {
         let time = self.brake.failure.time;
-        (time - BEFORE).max(0.0)..time + self.settled() * 1.01
+        (time - self.lead)..time + self.settled() * 1.01
     }
 }
 
@@ -63,6 +61,8 @@ impl<const N: usize> ExperimentRunner<'_, N> {
                 detection: servo.detection(),
                 ..Brake::new(self.failure(failure_time), brake.duration())
             },
+            // The motion begins at 0.
+            lead: servo.lead().min(failure_time),
             gain: servo.gain(),
             reflected_inertia: for_each_joint(&rotors)?,
         })
@@ -110,7 +110,12 @@ impl<const N: usize> ExperimentRunner<'_, N> {
             brake: lock.brake,
             reflected_inertia: lock.reflected_inertia,
         };
-        let outcome = simulation.run(span, &RESOLUTION, observe)?;
+        let cycles = (span.end - span.start) / self.scenario.cycle();
+        let resolution = Resolution {
+            steps: STEPS + (STEPS_PER_CYCLE * cycles) as u32,
+            ..Resolution::default()
+        };
+        let outcome = simulation.run(span, &resolution, observe)?;
         match (outcome.ending, outcome.impact) {
             (Ending::Complete, Some(impact)) => Ok((impact, outcome)),
             (ending, _) => Err(ExperimentError::Unfinished {

@@ -1,6 +1,6 @@
 //! [`Sweep`]: what the structure feels of a lock, over the servo's gain and the rotors' inertia.
 
-use super::lock::{BEFORE, Lock};
+use super::lock::Lock;
 use super::{ExperimentError, ExperimentRunner, SearchMethod, for_each_joint};
 use crate::scenario::{Experiment, ServoSettings};
 use ulna::Trajectory;
@@ -170,7 +170,7 @@ impl<const N: usize> ExperimentRunner<'_, N> {
             brake_time: own.brake.duration,
             detection: own.brake.detection,
             cycle,
-            lead: BEFORE.min(failure_time),
+            lead: own.lead,
             gains,
             unstable_gains,
             rotors,

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::lock::{BEFORE, Lock};
+use super::lock::Lock;
 use super::{ExperimentError, ExperimentRunner, SearchMethod, list};
 use crate::scenario::Experiment;
 use crate::simulation::{Brake, ideal_lock, tool_acceleration};
@@ -124,7 +124,7 @@ impl<const N: usize> ExperimentRunner<'_, N> {
             gain: lock.gain,
             reflected_inertia: list(&lock.reflected_inertia),
             projector: self.scenario.servo().projector(),
-            lead: BEFORE.min(failure_time),
+            lead: lock.lead,
             braking_step: list(&self.braking_step(&lock)),
             convergence: convergence.collect::<Result<_, _>>()?,
             runs: runs.collect::<Result<_, _>>()?,

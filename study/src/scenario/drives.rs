@@ -7,6 +7,7 @@ use ulna::control::compensation::Projector;
 pub struct ServoSettings {
     pub(super) gain: f64,
     pub(super) detection: f64,
+    pub(super) lead: f64,
     pub(super) projector: Projector,
 }
 
@@ -21,6 +22,11 @@ impl ServoSettings {
     /// ([`Brake::detection`](crate::simulation::Brake::detection)).
     pub fn detection(&self) -> f64 {
         self.detection
+    }
+
+    /// How long before the failure its simulation begins, s, in the planned state: so long the compensation acts, and moves the arm.
+    pub fn lead(&self) -> f64 {
+        self.lead
     }
 
     /// The projector P of every law, in searches and controllers alike.

@@ -3,6 +3,8 @@
 mod balance;
 mod brakes;
 mod healthy_joints;
+mod peaks;
+mod rotors;
 mod runs;
 
 use ulna::nalgebra::{SVector, Vector6};

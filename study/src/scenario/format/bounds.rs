@@ -54,6 +54,11 @@ pub(super) static DETECTION: Bound = Bound {
     unit: "s",
     help: "write how long the controller takes to know, for example 0.02 s",
 };
+pub(super) static LEAD: Bound = Bound {
+    range: 0.0..=10.0,
+    unit: "s",
+    help: "write how long the compensation has acted when the joint fails, for example 0.25 s",
+};
 pub(super) static ROTOR_INERTIA: Bound = Bound {
     range: 0.0..=1e3,
     unit: "kg m^2",

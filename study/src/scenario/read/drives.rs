@@ -9,6 +9,7 @@ use ulna_table::toml_reader::{Fields, Located, Value};
 pub(in crate::scenario) struct ServoTable {
     pub(in crate::scenario) gain: Number,
     pub(in crate::scenario) detection: Number,
+    pub(in crate::scenario) lead: Number,
     pub(in crate::scenario) projector: Option<ProjectorWord>,
 }
 
@@ -36,6 +37,7 @@ pub(super) fn read_servo(fields: &mut Fields<'_>) -> ServoTable {
     ServoTable {
         gain: number(fields.value(&servo::GAIN)),
         detection: number(fields.value(&servo::DETECTION)),
+        lead: number(fields.value(&servo::LEAD)),
         projector: fields
             .value(&servo::PROJECTOR)
             .and_then(Value::choice)

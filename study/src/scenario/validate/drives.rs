@@ -19,6 +19,7 @@ impl Reader<'_> {
             servo::DEFAULT_DETECTION,
             &servo::DETECTION,
         );
+        let lead = or(&table.lead, servo::DEFAULT_LEAD, &servo::LEAD);
         let projector = match table.projector.unwrap_or(servo::DEFAULT_PROJECTOR) {
             ProjectorWord::Static => Projector::Static,
             ProjectorWord::DynamicallyConsistent => Projector::DynamicallyConsistent,
@@ -26,6 +27,7 @@ impl Reader<'_> {
         Some(ServoSettings {
             gain: gain?,
             detection: detection?,
+            lead: lead?,
             projector,
         })
     }
