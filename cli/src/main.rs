@@ -16,6 +16,7 @@ mod man;
 mod output;
 mod reproduce;
 mod rows;
+mod setting;
 mod verify;
 
 use std::io::{self, Write};

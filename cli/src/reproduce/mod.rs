@@ -5,6 +5,7 @@ mod drawings;
 mod page;
 mod results;
 mod table;
+mod verdict;
 mod words;
 
 use std::io::Write;
@@ -13,7 +14,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use rayon::prelude::*;
 use ulna_study::Scenario;
-use ulna_study::experiment::{AnyArm, ExperimentError, ExperimentRunner, Study, Truth};
+use ulna_study::experiment::{AnyArm, ExperimentError, ExperimentRunner, Study, Sweep, Truth};
 use ulna_study::scenario::Experiment;
 
 use crate::arms::{ForArm, GENERATED, with_arm};
@@ -66,6 +67,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     files.add(PAGE, page::write(&scenario, &findings)?);
     results::add(&mut files, &scenario, &findings)?;
     drawings::add(&mut files, &scenario, &findings)?;
+    verdict::add(&mut files, &findings)?;
     let written = files.write_to(&arguments.output)?;
     console::note(&format!(
         "wrote {} files to {}; {PAGE} says what was found",
@@ -81,6 +83,8 @@ struct Findings {
     studies: Vec<Study>,
     /// The first experiment simulated, at every failure time; `Err` if that cannot be.
     truths: Result<Vec<Truth>, ExperimentError>,
+    /// The same with other servos and rotors.
+    sweeps: Result<Vec<Sweep>, ExperimentError>,
 }
 
 impl Findings {
@@ -107,7 +111,8 @@ impl ForArm for Work<'_> {
         let runner = ExperimentRunner::new(arm, self.0)?;
         let study = |experiment: &Experiment, time| runner.study(experiment, time);
         let truth = |experiment: &Experiment, time| runner.truth(experiment, time);
-        explore(self.0, &study, &truth)
+        let sweep = |experiment: &Experiment, time| runner.sweep(experiment, time);
+        explore(self.0, &study, &truth, &sweep)
     }
 }
 
@@ -119,6 +124,7 @@ fn explore(
     scenario: &Scenario,
     study: &Attempt<'_, Study>,
     truth: &Attempt<'_, Truth>,
+    sweep: &Attempt<'_, Sweep>,
 ) -> Result<Findings, ExperimentError> {
     let (experiments, failure_times) = (scenario.experiments(), scenario.failure_times());
     let pairs = experiments.iter().flat_map(|experiment| {
@@ -133,8 +139,12 @@ fn explore(
     let truths = failure_times
         .par_iter()
         .map(|time| truth(&experiments[0], *time));
+    let sweeps = failure_times
+        .par_iter()
+        .map(|time| sweep(&experiments[0], *time));
     Ok(Findings {
         studies: studies.collect::<Result<_, _>>()?,
         truths: truths.collect(),
+        sweeps: sweeps.collect(),
     })
 }

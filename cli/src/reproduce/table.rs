@@ -8,6 +8,7 @@ use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
 use ulna_study::scenario::{Experiment, Reference, Scenario};
 
 use super::Findings;
+use super::verdict;
 use super::words::{name, seconds, significant, solve_status, what_locks};
 
 /// Columns of a table of impacts, one for each method.
@@ -56,10 +57,15 @@ pub(super) fn write(
         writeln!(out, "\nsearches for {}", experiment.section())?;
         writeln!(out, "{}", searches(&findings.of_section(experiment)))?;
     }
+    if let Ok(sweeps) = &findings.sweeps {
+        let (heading, table) = (verdict::heading(sweeps), verdict::table(sweeps));
+        writeln!(out, "\n{heading}\n{table}")?;
+    }
     if let Ok(truths) = &findings.truths {
         writeln!(
             out,
-            "\nthe lock as it is, with ever shorter brakes: impulse in N m s"
+            "\nthe lock as it is, with ever shorter brakes{}: impulse in N m s",
+            verdict::drives(truths)
         )?;
         writeln!(out, "{}", convergence(truths))?;
     }

@@ -97,7 +97,8 @@ impl Sweep {
 }
 
 impl Rotors {
-    fn of(reflected_inertia: &[f64]) -> Self {
+    /// Those of a list with an entry for each joint, kg·m² (kg).
+    pub fn of(reflected_inertia: &[f64]) -> Self {
         match reflected_inertia {
             [first, others @ ..] if others.iter().all(|other| other == first) => {
                 Self::Common(*first)

@@ -2,6 +2,7 @@
 
 mod findings;
 mod lock;
+mod verdict;
 
 use std::fmt::{self, Write};
 
@@ -46,6 +47,7 @@ pub(super) fn write(scenario: &Scenario, findings: &Findings) -> Result<String, 
         figures(&mut page, experiment)?;
     }
     lock::write(&mut page, scenario, findings)?;
+    verdict::write(&mut page, scenario, findings)?;
     files(&mut page)?;
     Ok(page)
 }
@@ -114,6 +116,7 @@ fn files(page: &mut String) -> fmt::Result {
          - `search.csv`: the searches side by side: how they ended, gap, iterations, seconds, quality.\n\
          - `frontier.csv`: the points of the frontiers.\n\
          - `truth.csv`, `convergence.csv`: the simulated locks.\n\
+         - `sweep.csv`, `verdict.csv`: the locks simulated with all gains and rotors, and which compensation lowers what is felt of them.\n\
          - `series/`: torques and forces over time.\n\
          - `figures/`: SVG, and PNG of the same."
     )
