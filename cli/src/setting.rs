@@ -55,8 +55,9 @@ impl Setting {
         } else {
             format!("known to the controller after {} s", self.detection)
         };
+        let article = if self.gain == 0.0 { "" } else { "a " };
         format!(
-            "{}, a brake that takes {} s, {known}, and a compensation that has acted for {} s",
+            "{article}{}, a brake that takes {} s, {known}, and a compensation that has acted for {} s",
             self.drives(),
             self.brake_time,
             self.lead

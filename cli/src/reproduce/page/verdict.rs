@@ -100,14 +100,14 @@ fn of_the_scenario(page: &mut String, sweeps: &[Sweep], own: &Verdict) -> fmt::R
                 Some(format!(
                     "{} N·m with {}",
                     significant((*with)?),
-                    title(*method)
+                    law(*method)
                 ))
             })
             .collect();
         let verdict = match lock.helps() {
             Some((method, ratio)) => format!(
                 "{} lowers it most, by {} %",
-                title(method),
+                law(method),
                 significant(100.0 * (1.0 - ratio))
             ),
             None => "no compensation lowers it".to_owned(),
@@ -361,6 +361,14 @@ fn moved_tool(page: &mut String, truths: &[Truth]) -> fmt::Result {
          (|J (M + R)⁻¹ U| just before or just after the lock, the larger; m/s², with the rad/s² of rotations that are of the task): {}.\n",
         rows.join("; ")
     )
+}
+
+/// A law as a sentence has it.
+fn law(method: SearchMethod) -> &'static str {
+    match method {
+        SearchMethod::Optimal => "the optimal law",
+        method => title(method),
+    }
 }
 
 /// "a", "a and b", "a, b and c".
