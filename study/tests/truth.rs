@@ -11,6 +11,7 @@ use ulna_study::experiment::{
     Campaign, ExperimentRunner, Rotors, SearchMethod, Sweep, Truth, TruthRun, Verdict,
 };
 use ulna_study::scenario::KnownArm;
+use ulna_study::simulation::Ending;
 
 const PAPER_LIKE: &str = include_str!("../../scenarios/paper_like.toml");
 const KNOWN: &[KnownArm] = &[KnownArm {
@@ -200,6 +201,13 @@ fn the_projector_reaches_searches_rollouts_and_simulations() {
     let in_motion = truth(&scenario(&[], consistent), 10.0);
     assert_eq!(at_rest.projector, Projector::Static);
     assert_eq!(in_motion.projector, Projector::DynamicallyConsistent);
+    // With this projector Eq. 16 takes 57 kN m, and flings the arm off.
+    assert!(at_rest.unfinished.is_empty() && at_rest.runs.len() == 4);
+    let flung = [(SearchMethod::PerJoint, Ending::StepTooShort)];
+    assert_eq!(
+        (in_motion.unfinished.as_slice(), in_motion.runs.len()),
+        (&flung[..], 3)
+    );
     assert!(run(at_rest, Some(method)).tool_acceleration > 0.1);
     assert!(run(&in_motion, Some(method)).tool_acceleration < 1e-9);
     let [a, b] = scenarios.each_ref().map(|scenario| {

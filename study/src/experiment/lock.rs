@@ -21,7 +21,7 @@ pub(super) const METHODS: [SearchMethod; 3] = [
     SearchMethod::Optimal,
 ];
 /// A lock takes some hundred steps and a few for each control cycle; what needs many more gets nowhere.
-const STEPS: u32 = 10_000;
+const STEPS: u32 = 4_000;
 /// See [`STEPS`].
 const STEPS_PER_CYCLE: f64 = 8.0;
 

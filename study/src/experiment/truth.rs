@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::lock::Lock;
 use super::{ExperimentError, ExperimentRunner, SearchMethod, list};
 use crate::scenario::Experiment;
-use crate::simulation::{Brake, ideal_lock, tool_acceleration};
+use crate::simulation::{Brake, Ending, ideal_lock, tool_acceleration};
 use ulna::Trajectory;
 use ulna::control::compensation::{Compensation, Projector};
 use ulna::control::failure::{Failure, LockedJoints};
@@ -39,6 +39,9 @@ pub struct Truth {
     pub convergence: Vec<BrakeImpulse>,
     /// Without compensation and with those of three methods.
     pub runs: Vec<TruthRun>,
+    /// The methods whose compensation moves the arm so violently that the simulation did not come to its end, and how that ended:
+    /// they are not among the runs.
+    pub unfinished: Vec<(SearchMethod, Ending)>,
 }
 
 /// The impulse of brakes that take some time, beside that of the ideal lock.
@@ -95,7 +98,7 @@ impl<const N: usize> ExperimentRunner<'_, N> {
     /// One experiment with the brakes falling at `failure_time`, the servo and the rotors those of the scenario.
     ///
     /// # Errors
-    /// As [`study`](Self::study), and when a simulation cannot be run to its end.
+    /// As [`study`](Self::study), and when the simulation without compensation cannot be run to its end.
     pub fn truth(
         &self,
         experiment: &Experiment,
@@ -103,9 +106,16 @@ impl<const N: usize> ExperimentRunner<'_, N> {
     ) -> Result<Truth, ExperimentError> {
         let operation = self.operation(experiment, failure_time)?;
         let lock = self.lock(failure_time)?;
-        let compensations = self.compensations(&operation).into_iter();
-        let runs = compensations
-            .map(|(method, compensation)| self.run_truth(experiment, method, compensation, &lock));
+        let (mut runs, mut unfinished) = (Vec::new(), Vec::new());
+        for (method, compensation) in self.compensations(&operation) {
+            let run = self.run_truth(experiment, method, compensation, &lock);
+            match (run, method) {
+                (Err(ExperimentError::Unfinished { ending, .. }), Some(method)) => {
+                    unfinished.push((method, ending));
+                }
+                (run, _) => runs.push(run?),
+            }
+        }
         let convergence = BRAKE_TIMES.iter().filter_map(|duration| {
             let brake = Brake {
                 duration: *duration,
@@ -127,7 +137,8 @@ impl<const N: usize> ExperimentRunner<'_, N> {
             lead: lock.lead,
             braking_step: list(&self.braking_step(&lock)),
             convergence: convergence.collect::<Result<_, _>>()?,
-            runs: runs.collect::<Result<_, _>>()?,
+            runs,
+            unfinished,
         })
     }
 

@@ -39,6 +39,7 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
     if let Ok(truths) = &findings.truths {
         while_braking(page, truths)?;
         moved_tool(page, truths)?;
+        unfinished(page, truths)?;
     }
     Ok(())
 }
@@ -361,6 +362,21 @@ fn moved_tool(page: &mut String, truths: &[Truth]) -> fmt::Result {
          (|J (M + R)⁻¹ U| just before or just after the lock, the larger; m/s², with the rad/s² of rotations that are of the task): {}.\n",
         rows.join("; ")
     )
+}
+
+/// The simulations that did not come to their end.
+fn unfinished(page: &mut String, truths: &[Truth]) -> fmt::Result {
+    for truth in truths {
+        for (method, ending) in &truth.unfinished {
+            writeln!(
+                page,
+                "The lock at {} s could not be simulated with {}: {ending}.\n",
+                truth.failure_time,
+                law(*method)
+            )?;
+        }
+    }
+    Ok(())
 }
 
 /// A law as a sentence has it.
