@@ -20,6 +20,18 @@ pub(super) const METHODS: [SearchMethod; 3] = [
     SearchMethod::Projected,
     SearchMethod::Optimal,
 ];
+/// Where series and balances are looked at.
+pub(super) const FINE: Resolution = Resolution {
+    tolerance: 1e-10,
+    sample_period: 0.01,
+    steps: STEPS,
+};
+/// Where steps and peaks are all that counts, which need no samples: six digits of them.
+pub(super) const COARSE: Resolution = Resolution {
+    tolerance: 1e-8,
+    sample_period: 1.0,
+    steps: STEPS,
+};
 /// A lock takes some hundred steps and a few for each control cycle; what needs many more gets nowhere.
 const STEPS: u32 = 4_000;
 /// See [`STEPS`].
@@ -97,7 +109,7 @@ impl<const N: usize> ExperimentRunner<'_, N> {
         experiment: &Experiment,
         compensation: Compensation<N>,
         lock: &Lock<N>,
-        span: Range<f64>,
+        (span, resolution): (Range<f64>, Resolution),
         observe: &mut dyn FnMut(&Sample<N>),
     ) -> Result<(Impact<N>, Outcome<N>), ExperimentError> {
         let simulation = Simulation {
@@ -113,7 +125,7 @@ impl<const N: usize> ExperimentRunner<'_, N> {
         let cycles = (span.end - span.start) / self.scenario.cycle();
         let resolution = Resolution {
             steps: STEPS + (STEPS_PER_CYCLE * cycles) as u32,
-            ..Resolution::default()
+            ..resolution
         };
         let outcome = simulation.run(span, &resolution, observe)?;
         match (outcome.ending, outcome.impact) {

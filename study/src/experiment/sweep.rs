@@ -1,6 +1,6 @@
 //! [`Sweep`]: what the structure feels of a lock, over the servo's gain and the rotors' inertia.
 
-use super::lock::Lock;
+use super::lock::{COARSE, Lock};
 use super::{ExperimentError, ExperimentRunner, SearchMethod, for_each_joint};
 use crate::scenario::{Experiment, ServoSettings};
 use ulna::Trajectory;
@@ -211,7 +211,8 @@ impl<const N: usize> ExperimentRunner<'_, N> {
         lock: &Lock<N>,
     ) -> Result<Option<Felt>, ExperimentError> {
         let joints = lock.brake.failure.joints;
-        match self.simulate(experiment, compensation, lock, lock.span(), &mut |_| ()) {
+        let run = (lock.span(), COARSE);
+        match self.simulate(experiment, compensation, lock, run, &mut |_| ()) {
             Ok((impact, _)) => {
                 let felt = Felt {
                     predicted_step: joints.without(&impact.predicted_step).norm(),

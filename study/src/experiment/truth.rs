@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::lock::Lock;
+use super::lock::{FINE, Lock};
 use super::{ExperimentError, ExperimentRunner, SearchMethod, list};
 use crate::scenario::Experiment;
 use crate::simulation::{Brake, Ending, ideal_lock, tool_acceleration};
@@ -174,8 +174,12 @@ impl<const N: usize> ExperimentRunner<'_, N> {
             predicted_torque: Vec::new(),
         };
         let controller = self.controller(experiment, compensation)?;
-        let (impact, outcome) =
-            self.simulate(experiment, compensation, lock, start..end, &mut |sample| {
+        let (impact, outcome) = self.simulate(
+            experiment,
+            compensation,
+            lock,
+            (start..end, FINE),
+            &mut |sample| {
                 run.time.push(sample.time);
                 run.torque.push(list(&sample.joint_torque()));
                 let wrench = experiment.force().at(sample.time);
@@ -189,7 +193,8 @@ impl<const N: usize> ExperimentRunner<'_, N> {
                 };
                 let predicted = controller.cycle(&sample.planned, &wrench, locked);
                 run.predicted_torque.push(list(&predicted.torque));
-            })?;
+            },
+        )?;
         run.predicted_step = list(&impact.predicted_step);
         run.torque_step = list(&impact.torque_step);
         run.peak_torque = list(&impact.peak_torque);
@@ -225,7 +230,7 @@ impl<const N: usize> ExperimentRunner<'_, N> {
         // From the planned state on, so that the ideal lock is the same for all.
         let span = lock.brake.failure.time..lock.span().end;
         let none = Compensation::none();
-        let (impact, outcome) = self.simulate(experiment, none, lock, span, &mut |_| ())?;
+        let (impact, outcome) = self.simulate(experiment, none, lock, (span, FINE), &mut |_| ())?;
         let difference = impact.brake_impulse - impact.ideal.brake;
         let ideal = impact.ideal.brake;
         let failed = |vector: &SVector<f64, N>| joints.iter().map(|joint| vector[joint]).collect();

@@ -107,9 +107,9 @@ fn of_the_scenario(page: &mut String, sweeps: &[Sweep], own: &Verdict) -> fmt::R
             .collect();
         let verdict = match lock.helps() {
             Some((method, ratio)) => format!(
-                "{} lowers it most, by {} %",
+                "{} lowers it most, by {:.1} %",
                 law(method),
-                significant(100.0 * (1.0 - ratio))
+                100.0 * (1.0 - ratio)
             ),
             None => "no compensation lowers it".to_owned(),
         };
@@ -358,8 +358,8 @@ fn moved_tool(page: &mut String, truths: &[Truth]) -> fmt::Result {
     }
     writeln!(
         page,
-        "**The tool.** A force that is kept is kept at rest. The compensations that were found accelerate a tool that nothing holds \
-         (|J (M + R)⁻¹ U| just before or just after the lock, the larger; m/s², with the rad/s² of rotations that are of the task): {}.\n",
+        "**The tool.** Eq. 13 is about an arm at rest. What the compensations that were found add to the acceleration of a tool that nothing holds, \
+         |J (M + R)⁻¹ U| just before or just after the lock, the larger (m/s², with the rad/s² of rotations that are of the task): {}.\n",
         rows.join("; ")
     )
 }
