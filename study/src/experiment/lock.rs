@@ -24,13 +24,19 @@ pub(super) const METHODS: [SearchMethod; 3] = [
 pub(super) const FINE: Resolution = Resolution {
     tolerance: 1e-10,
     sample_period: 0.01,
+    samples_at_least: 16,
     steps: STEPS,
 };
-/// Where steps and peaks are all that counts, which need no samples: six digits of them.
+/// Where nobody looks at samples: neither steps nor peaks nor balances need them.
+pub(super) const UNSEEN: Resolution = Resolution {
+    sample_period: 10.0,
+    samples_at_least: 1,
+    ..FINE
+};
+/// Where six digits of steps and peaks are all that counts.
 pub(super) const COARSE: Resolution = Resolution {
     tolerance: 1e-8,
-    sample_period: 1.0,
-    steps: STEPS,
+    ..UNSEEN
 };
 /// A lock takes some hundred steps and a few for each control cycle; what needs many more gets nowhere.
 const STEPS: u32 = 4_000;

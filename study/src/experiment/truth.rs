@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::lock::{FINE, Lock};
+use super::lock::{FINE, Lock, UNSEEN};
 use super::{ExperimentError, ExperimentRunner, SearchMethod, list};
 use crate::scenario::Experiment;
 use crate::simulation::{Brake, Ending, ideal_lock, tool_acceleration};
@@ -230,7 +230,8 @@ impl<const N: usize> ExperimentRunner<'_, N> {
         // From the planned state on, so that the ideal lock is the same for all.
         let span = lock.brake.failure.time..lock.span().end;
         let none = Compensation::none();
-        let (impact, outcome) = self.simulate(experiment, none, lock, (span, FINE), &mut |_| ())?;
+        let (impact, outcome) =
+            self.simulate(experiment, none, lock, (span, UNSEEN), &mut |_| ())?;
         let difference = impact.brake_impulse - impact.ideal.brake;
         let ideal = impact.ideal.brake;
         let failed = |vector: &SVector<f64, N>| joints.iter().map(|joint| vector[joint]).collect();

@@ -138,18 +138,21 @@ pub enum Control {
 pub struct Resolution {
     /// Bound of a step's local error in every entry of the state, relative to 1 (rad, rad/s, J, N·m·s) plus its size.
     pub tolerance: f64,
-    /// The largest time between two samples, s. Every stretch between two events has 16 at least.
+    /// The largest time between two samples, s.
     pub sample_period: f64,
+    /// Samples that every stretch between two events has at least, so that a short brake is seen too; 0 counts as 1.
+    pub samples_at_least: u32,
     /// Steps that are tried at most, so that a run ends whatever is asked of it.
     pub steps: u32,
 }
 
 impl Default for Resolution {
-    /// 1e-10, 10 ms and a hundred thousand steps.
+    /// 1e-10, 10 ms, 16 samples between two events and a hundred thousand steps.
     fn default() -> Self {
         Self {
             tolerance: 1e-10,
             sample_period: 0.01,
+            samples_at_least: 16,
             steps: 100_000,
         }
     }

@@ -12,9 +12,6 @@ use super::{Control, Ending, Impact, Resolution, Sample, Simulation, ideal_lock}
 use ulna::control::trajectory::Trajectory;
 use ulna::{Arm, LockedJoints, Status};
 
-/// Samples between two events are at least so many, so that a short brake is seen too.
-const SAMPLES_PER_PHASE: f64 = 16.0;
-
 pub(super) struct Run<'a, 's, P: ?Sized, A: ?Sized, T, W, const N: usize> {
     simulation: &'a Simulation<'s, P, A, T, W, N>,
     resolution: &'a Resolution,
@@ -127,8 +124,8 @@ where
         let stop = to.min(self.end);
         let length = stop - from;
         if length > 0.0 {
-            let samples =
-                ComplexField::ceil(length / self.resolution.sample_period).max(SAMPLES_PER_PHASE);
+            let least = f64::from(self.resolution.samples_at_least.max(1));
+            let samples = ComplexField::ceil(length / self.resolution.sample_period).max(least);
             self.stepper.restart(length / samples);
             let mut phase = Phase {
                 stage,

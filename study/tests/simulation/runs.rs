@@ -136,6 +136,7 @@ fn feedback_too_stiff_to_follow_ends_the_run() {
         tolerance: 1e-3,
         sample_period: 1.0,
         steps: 1000,
+        ..Resolution::default()
     };
     let outcome = simulation.run(9.9..11.0, &resolution, |_| ()).unwrap();
     assert_eq!(outcome.ending, Ending::StepTooShort);
