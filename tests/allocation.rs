@@ -173,6 +173,7 @@ fn a_simulated_failure_allocates_nothing() {
             feedback: Feedback::critical(5.0),
             control,
             brake: Brake::new(failure, 0.01),
+            reflected_inertia: SVector::zeros(),
         };
         let count = allocations(|| {
             let outcome = simulation.run(1.9..2.1, &Resolution::default(), |_| samples += 1);

@@ -18,6 +18,7 @@ mod man;
 mod output;
 mod reproduce;
 mod rows;
+mod setting;
 mod verify;
 
 use std::io::{self, Write};

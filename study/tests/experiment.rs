@@ -7,7 +7,7 @@ use ulna::{SerialChain, Status};
 use ulna_generated::{Planar2r, Ssrms};
 use ulna_study::Scenario;
 use ulna_study::experiment::{
-    Case, ExperimentError, ExperimentRunner, SearchMethod, Study, Variant, Verdict,
+    Case, ExperimentError, ExperimentRunner, Lowerable, SearchMethod, Study, Variant,
 };
 use ulna_study::scenario::KnownArm;
 use ulna_study::search::SearchError;
@@ -380,7 +380,7 @@ fn keeping_the_force_makes_joints_worse_and_a_certificate_says_why() {
         let mut studies = studies().iter();
         let study = studies.find(|study| study.section == "5.2" && study.failure_time == time);
         let kept = &study.unwrap().force_kept;
-        let Ok(Verdict::None {
+        let Ok(Lowerable::None {
             joints,
             margin: found,
             ..
@@ -390,7 +390,7 @@ fn keeping_the_force_makes_joints_worse_and_a_certificate_says_why() {
         };
         assert_eq!(joints[..], [0, 1, 2, 3, 4, 5]);
         assert!((found - margin).abs() < 5e-5);
-        let Ok(Verdict::All { worst_ratio }) = kept.healthy else {
+        let Ok(Lowerable::All { worst_ratio }) = kept.healthy else {
             panic!("{:?}", kept.healthy);
         };
         assert!(worst_ratio > 0.95 && worst_ratio < 1.0);

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use proptest::prelude::*;
+use ulna::control::compensation::Projector;
 use ulna::nalgebra::Vector6;
 use ulna::{ProfileShape, SerialChain, Trajectory};
 use ulna_study::Scenario;
@@ -362,6 +363,60 @@ fn sections_brakes_and_figures() {
         ("duration = 0.1 ", "duration = 0.0 "),
         ("profile = \"constant\"", "profile = \"constnat\""),
         ("cases = 10_000", "cases = 1.5"),
+    ]);
+    insta::assert_snapshot!(messages);
+}
+
+#[test]
+fn servos_and_motors() {
+    let without = PAPER_LIKE.split_once("\n[servo]").unwrap().0;
+    let scenario = parse(without).unwrap();
+    // What a file means that does not say.
+    let servo = scenario.servo();
+    assert_eq!(
+        (servo.gain(), servo.detection(), servo.lead()),
+        (5.0, 0.0, 0.25)
+    );
+    assert_eq!(servo.projector(), Projector::Static);
+    assert_eq!(scenario.motors().reflected_inertia(), [0.0; 7]);
+    assert_eq!(servo, parse(PAPER_LIKE).unwrap().servo());
+    let motors = |text: &str| {
+        let text = format!("{without}\n[motors]\n{text}");
+        parse(&text).unwrap().motors().clone()
+    };
+    assert_eq!(motors("ratio = 100").reflected_inertia(), [0.0; 7]);
+    assert_eq!(motors("rotor_inertia = 2").reflected_inertia(), [2.0; 7]);
+    let each = motors("rotor_inertia = 2e-4\nratio = [100, 200, 0.5, 1, 1, 1, 1000]");
+    assert_eq!(each.rotor_inertia(), [2e-4; 7]);
+    assert_eq!(each.ratio()[1], 200.0);
+    for (found, expected) in each.reflected_inertia().iter().zip([2.0, 8.0, 5e-5]) {
+        assert!((found / expected - 1.0).abs() < 1e-12);
+    }
+    let consistent = [(
+        "projector = \"static\"",
+        "projector = \"dynamically_consistent\"",
+    )];
+    let servo = parse(&edited(&consistent)).unwrap().servo();
+    assert_eq!(servo.projector(), Projector::DynamicallyConsistent);
+    let still = parse(&edited(&[("gain = 5.0", "gain = 0")]))
+        .unwrap()
+        .servo();
+    assert_eq!(still.gain(), 0.0);
+    let messages = messages(&[
+        ("gain = 5.0", "gain = -5.0"),
+        ("gain = 5.0", "gian = 5.0"),
+        ("detection = 0.0", "detection = 20"),
+        ("lead = 0.25", "lead = -0.25"),
+        ("projector = \"static\"", "projector = \"dynamic\""),
+        (
+            "[servo]",
+            "[motors]\nrotor_inertia = [1e-4, 1e-4]\nratio = 0\n[servo]",
+        ),
+        (
+            "[servo]",
+            "[motors]\nrotor_inertia = -1\nratio = \"100\"\n[servo]",
+        ),
+        ("[servo]", "[motors]\ngain = 1\n[servo]"),
     ]);
     insta::assert_snapshot!(messages);
 }

@@ -65,6 +65,32 @@ pub(super) fn grid_panel<'a, DB: DrawingBackend>(
     with_coordinates(area, pen, axes, (x, 7), (y, ticks))
 }
 
+/// An empty panel with a name at each whole number of its horizontal axis, from 1 on, and a logarithmic vertical one.
+pub(super) fn category_panel<'a, DB: DrawingBackend>(
+    area: &'a Area<DB>,
+    pen: Pen,
+    title: &str,
+    (what, names): (&str, &[String]),
+    (label, y): (&str, Range<f64>),
+) -> Built<'a, DB, RangedCoordf64, LogCoord<f64>> {
+    let x = 0.5..names.len() as f64 + 0.5;
+    let axes = Axes {
+        title,
+        x: (what, x.clone()),
+        y: (label, y.clone()),
+    };
+    let name = |x: f64| {
+        let index = (x.round() as usize).checked_sub(1);
+        let name = index.and_then(|index| names.get(index));
+        // Between two names there is none.
+        name.filter(|_| (x - x.round()).abs() < 1e-6)
+            .cloned()
+            .unwrap_or_default()
+    };
+    let coordinates = ((x, names.len()), (y.log_scale(), 6));
+    with_names(area, pen, &axes, coordinates, &name)
+}
+
 /// An empty panel with two logarithmic axes.
 pub(super) fn double_log_panel<'a, DB: DrawingBackend>(
     area: &'a Area<DB>,
@@ -80,8 +106,25 @@ fn with_coordinates<'a, DB: DrawingBackend, X, Y>(
     area: &'a Area<DB>,
     pen: Pen,
     axes: &Axes<'_>,
-    (x, x_ticks): (X, usize),
-    (y, y_ticks): (Y, usize),
+    x: (X, usize),
+    y: (Y, usize),
+) -> Built<'a, DB, X::CoordDescType, Y::CoordDescType>
+where
+    X: AsRangedCoord<Value = f64>,
+    X::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    Y: AsRangedCoord<Value = f64>,
+    Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
+{
+    with_names(area, pen, axes, (x, y), &tick)
+}
+
+/// The same with names of its own at the ticks of the horizontal axis.
+fn with_names<'a, DB: DrawingBackend, X, Y>(
+    area: &'a Area<DB>,
+    pen: Pen,
+    axes: &Axes<'_>,
+    ((x, x_ticks), (y, y_ticks)): ((X, usize), (Y, usize)),
+    name: &dyn Fn(f64) -> String,
 ) -> Built<'a, DB, X::CoordDescType, Y::CoordDescType>
 where
     X: AsRangedCoord<Value = f64>,
@@ -114,7 +157,7 @@ where
         .axis_style(BLACK.stroke_width(pen.px(1)))
         .x_labels(x_ticks)
         .y_labels(y_ticks)
-        .x_label_formatter(&|x| tick(*x))
+        .x_label_formatter(&|x| name(*x))
         .y_label_formatter(&|y| tick(*y))
         .x_desc(axes.x.0)
         .y_desc(axes.y.0)

@@ -1,13 +1,16 @@
 //! The simulated lock beside the predicted one, and the limit of ever shorter brakes.
 
+use plotters::element::Text;
 use plotters::prelude::DrawingBackend;
+use plotters::style::text_anchor::{HPos, VPos};
 use ulna::JointKind;
 use ulna_study::experiment::{SearchMethod, Truth, TruthRun};
 
 use super::chart::{Axes, Key, double_log_panel, legend, panel, range};
 use super::stroke::{CURVES, EVENT, Stroke};
-use super::style::{BLACK, BLUE, GREY, Marker, Pen, VERMILION, torque_label};
+use super::style::{BLACK, BLUE, GREY, Marker, Pen, VERMILION, anchored, torque_label};
 use super::{Area, Drawn, Figure};
+use crate::setting::Setting;
 
 const PREDICTED: Stroke = Stroke::solid(GREY);
 const SIMULATED: Stroke = Stroke::solid(BLACK);
@@ -25,16 +28,20 @@ pub(crate) struct SimulatedTorques<'s> {
 
 impl Figure for SimulatedTorques<'_> {
     fn size(&self) -> (u32, u32) {
-        (1000, 40 + 230 * self.joints.len().div_ceil(2).max(1) as u32)
+        (1000, 62 + 230 * self.joints.len().div_ceil(2).max(1) as u32)
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
-        let (head, body) = area.split_vertically(pen.px(34));
+        let (head, body) = area.split_vertically(pen.px(56));
         let curves = self.curves();
         let entries = curves
             .iter()
             .map(|(_, _, stroke, label)| (Key::Stroke(*stroke), (*label).to_owned()));
         legend(&head, pen, &entries.collect::<Vec<_>>())?;
+        let setting = Setting::of(self.truth).with_brake();
+        let text = format!("lock at {} s; {setting}", self.truth.failure_time);
+        let style = anchored(&pen.text(), HPos::Left, VPos::Center);
+        head.draw(&Text::new(text, (pen.at(72), pen.at(40)), style))?;
         let areas = body.split_evenly((self.joints.len().div_ceil(2).max(1), 2));
         for (area, joint) in areas.iter().zip(self.joints) {
             let points: Vec<_> = curves
@@ -159,11 +166,13 @@ impl Figure for Convergence<'_> {
             });
             least / 2.0..most.max(least) * 2.0
         };
+        let setting = self.truths.first().map(Setting::of);
+        let setting = setting.map_or_else(String::new, |setting| setting.drives());
         let mut panel = double_log_panel(
             &body,
             pen,
             &Axes {
-                title: "impulse of ever shorter brakes",
+                title: &format!("ever shorter brakes; {setting}"),
                 x: (
                     "brake time in s",
                     span(&mut all.iter().map(|point| point.0)),

@@ -9,6 +9,7 @@ mod page;
 mod plan_steps;
 mod results;
 mod table;
+mod verdict;
 pub(crate) mod words;
 mod worse;
 
@@ -20,7 +21,7 @@ use rayon::prelude::*;
 use ulna_study::Scenario;
 use ulna_study::experiment::{
     Ablation, AnyArm, ExperimentError, ExperimentRunner, LimitedSuppression, PlanSteps, Study,
-    Truth,
+    Sweep, Truth,
 };
 use ulna_study::scenario::{Experiment, ScenarioErrors};
 
@@ -68,6 +69,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     results::add(&mut files, &scenario, &findings)?;
     ablation::add(&mut files, &findings.ablations)?;
     drawings::add(&mut files, &scenario, &findings)?;
+    verdict::add(&mut files, &findings)?;
     let written = files.write_to(&arguments.output)?;
     console::note(&format!(
         "wrote {} files to {}; {PAGE} says what was found",
@@ -102,6 +104,8 @@ struct Findings {
     limited: Vec<LimitedSuppression>,
     /// The first experiment with other fields and on one side of the lock, at every failure time.
     ablations: Vec<Ablation>,
+    /// The same with other servos and rotors.
+    sweeps: Result<Vec<Sweep>, ExperimentError>,
 }
 
 impl Findings {
@@ -131,7 +135,10 @@ impl ForArm for Work<'_> {
         let limited = |experiment: &Experiment, time| runner.limited(experiment, time);
         let plan_steps = runner.plan_steps(&self.0.experiments()[0]);
         let ablation = |experiment: &Experiment, time| runner.ablation(experiment, time);
-        explore(self.0, plan_steps, &study, &truth, &limited, &ablation)
+        let sweep = |experiment: &Experiment, time| runner.sweep(experiment, time);
+        explore(
+            self.0, plan_steps, &study, &truth, &limited, &ablation, &sweep,
+        )
     }
 }
 
@@ -146,6 +153,7 @@ fn explore(
     truth: &Attempt<'_, Truth>,
     limited: &Attempt<'_, Option<LimitedSuppression>>,
     ablation: &Attempt<'_, Ablation>,
+    sweep: &Attempt<'_, Sweep>,
 ) -> Result<Findings, ExperimentError> {
     let (experiments, failure_times) = (scenario.experiments(), scenario.failure_times());
     let pairs = experiments.iter().flat_map(|experiment| {
@@ -167,11 +175,15 @@ fn explore(
     let ablations = failure_times
         .par_iter()
         .map(|time| ablation(&experiments[0], *time));
+    let sweeps = failure_times
+        .par_iter()
+        .map(|time| sweep(&experiments[0], *time));
     Ok(Findings {
         ablations: ablations.collect::<Result<_, _>>()?,
         studies: studies.collect::<Result<_, _>>()?,
         truths: truths.collect(),
         plan_steps,
         limited,
+        sweeps: sweeps.collect(),
     })
 }

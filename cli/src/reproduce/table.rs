@@ -7,7 +7,7 @@ use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
 use ulna_study::scenario::{Experiment, Reference, Scenario};
 
 use super::words::{name, seconds, significant, solve_status, what_locks};
-use super::{Findings, bounds, limited, plan_steps, worse};
+use super::{Findings, bounds, limited, plan_steps, verdict, worse};
 use crate::columns::plain;
 
 /// Columns of a table of impacts, one for each method.
@@ -60,10 +60,15 @@ pub(super) fn write(
         writeln!(out, "{}", searches(&findings.of_section(experiment)))?;
     }
     plan_steps::write(&findings.plan_steps, out)?;
+    if let Ok(sweeps) = &findings.sweeps {
+        let (heading, table) = (verdict::heading(sweeps), verdict::table(sweeps));
+        writeln!(out, "\n{heading}\n{table}")?;
+    }
     if let Ok(truths) = &findings.truths {
         writeln!(
             out,
-            "\nthe lock as it is, with ever shorter brakes: impulse in N m s"
+            "\nthe lock as it is, with ever shorter brakes{}: impulse in N m s",
+            verdict::drives(truths)
         )?;
         writeln!(out, "{}", convergence(truths))?;
     }

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use ulna::Law;
-use ulna_study::experiment::{Case, SearchMethod, Study, Verdict};
+use ulna_study::experiment::{Case, Lowerable, SearchMethod, Study};
 use ulna_study::search::WorseJoint;
 
 use super::words::{joints_named, significant};
@@ -16,7 +16,7 @@ pub(super) fn write(
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let proof = match &study.force_kept.all {
-        Ok(Verdict::None { joints, margin, .. }) => Some((joints, significant(*margin))),
+        Ok(Lowerable::None { joints, margin, .. }) => Some((joints, significant(*margin))),
         _ => None,
     };
     for (method, title) in methods {
@@ -74,7 +74,7 @@ fn limit(study: &Study) -> Option<String> {
     let all = kept.no_joint_worse.as_ref().ok()?;
     let (before, _) = study.case(SearchMethod::Optimal).healthy_impact();
     let ratio = match &kept.healthy {
-        Ok(Verdict::All { worst_ratio }) => format!(
+        Ok(Lowerable::All { worst_ratio }) => format!(
             ", or each of them at {:.1} % of its step at most",
             100.0 * worst_ratio
         ),

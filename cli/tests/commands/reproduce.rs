@@ -109,7 +109,7 @@ fn keys(value: &Value) -> BTreeSet<&str> {
         .collect()
 }
 
-const FIGURES: [&str; 9] = [
+const FIGURES: [&str; 10] = [
     "figure_4",
     "figure_5",
     "figure_6",
@@ -119,6 +119,7 @@ const FIGURES: [&str; 9] = [
     "frontier-5.4",
     "simulated-lock",
     "ever-shorter-brakes",
+    "felt-steps",
 ];
 
 #[test]
@@ -146,6 +147,8 @@ fn everything_is_printed_and_written() {
         "truth.csv",
         "convergence.csv",
         "ablation.csv",
+        "sweep.csv",
+        "verdict.csv",
     ];
     let mut expected: BTreeSet<String> = tables.map(str::to_owned).into();
     for section in ["5.2", "5.3", "5.4"] {
@@ -168,6 +171,12 @@ fn everything_is_printed_and_written() {
     ] {
         assert!(plan.contains(sentence), "{sentence} is missing in:\n{plan}");
     }
+    // With cycles as long as these.
+    assert!(
+        page.contains("servo is not stable with this cycle"),
+        "{page}"
+    );
+    verdicts_are_those_of_the_sweep(&output);
     let links = page.split("](").skip(1);
     let links: Vec<_> = links.filter_map(|rest| rest.split(')').next()).collect();
     assert_eq!(links.len(), FIGURES.len());
@@ -332,6 +341,62 @@ fn results_are_as_promised(output: &Path) {
             .any(|(peak, rated)| *peak > rated * (1.0 - 1e-9))
     );
     assert_eq!(cases[0]["status"], "nominal");
+}
+
+/// The rows of a CSV file by their columns.
+fn csv_rows(path: &Path) -> Vec<std::collections::BTreeMap<String, String>> {
+    let text = fs::read_to_string(path).unwrap();
+    let mut lines = text.lines();
+    let names: Vec<_> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| {
+        let cells = names.iter().zip(line.split(','));
+        cells
+            .map(|(name, cell)| ((*name).to_owned(), cell.to_owned()))
+            .collect()
+    };
+    lines.map(row).collect()
+}
+
+fn verdicts_are_those_of_the_sweep(output: &Path) {
+    let (points, verdicts) = (
+        csv_rows(&output.join("sweep.csv")),
+        csv_rows(&output.join("verdict.csv")),
+    );
+    // Gains of 0 and 1, and the scenario's 5; 20 is too much for the cycle. Rotors of five weights, and four compensations.
+    assert_eq!((points.len(), verdicts.len()), (3 * 5 * 4, 3 * 5));
+    let own: Vec<_> = verdicts.iter().filter(|row| row["own"] == "true").collect();
+    assert_eq!(own.len(), 1);
+    assert_eq!(
+        (
+            own[0]["gain"].as_str(),
+            own[0]["reflected_inertia"].as_str()
+        ),
+        ("5.0", "0")
+    );
+    for verdict in &verdicts {
+        let same = |key: &str, point: &std::collections::BTreeMap<String, String>| {
+            point[key] == verdict[key]
+        };
+        let steps = points.iter().filter(|point| {
+            ["gain", "reflected_inertia", "failure_time"]
+                .iter()
+                .all(|key| same(key, point))
+        });
+        let steps: Vec<(&str, f64)> = steps
+            .map(|point| (point["method"].as_str(), point["step"].parse().unwrap()))
+            .collect();
+        let without = steps
+            .iter()
+            .find(|(method, _)| *method == "none")
+            .unwrap()
+            .1;
+        let least = steps.iter().filter(|(method, _)| *method != "none");
+        let least = least.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+        assert_eq!(verdict["best"], least.0);
+        let relative: f64 = verdict["best_relative"].parse().unwrap();
+        assert!((relative - least.1 / without).abs() < 1e-12);
+        assert_eq!(verdict["lowered"] == "true", relative < 0.99);
+    }
 }
 
 /// A PNG of twice the SVG's size, and an SVG with axes, units and a legend in it.

@@ -121,6 +121,7 @@ impl<'a, const N: usize> Campaign<'a, N> {
             rated_torque: rated.map_or(Ok(no_limit), super::rated_torque)?,
             step_time: rated.map_or(0.0, Experiment::step_time),
             wrench_step: rated.map_or(Vector6::zeros(), |first| first.force().lock_step),
+            projector: self.scenario.servo().projector(),
             ..OperationOptions::default()
         };
         let failure = Failure { joints, time };

@@ -9,9 +9,9 @@ use crate::search::{
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceKept {
     /// Whether all healthy joints can be lowered at once.
-    pub healthy: Result<Verdict, SearchError>,
+    pub healthy: Result<Lowerable, SearchError>,
     /// Whether all joints can, the locked ones too.
-    pub all: Result<Verdict, SearchError>,
+    pub all: Result<Lowerable, SearchError>,
     /// The least norm over the healthy joints with none of them worse than without compensation, N·m (N).
     pub no_healthy_joint_worse: Result<f64, SearchError>,
     /// The same with the locked joints' brakes no worse either.
@@ -20,7 +20,7 @@ pub struct ForceKept {
 
 /// Whether the steps of some joints can all be lowered at once.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
+pub enum Lowerable {
     /// No: proven by a wrench ([`Certificate`]).
     None {
         /// The joints that cannot be lowered all at once, counted from 0.
@@ -39,7 +39,7 @@ pub enum Verdict {
     },
 }
 
-impl Verdict {
+impl Lowerable {
     fn new<const N: usize>(operation: &Operation<N>, scope: Scope) -> Result<Self, SearchError> {
         Ok(match lower_every_joint(operation, scope)? {
             LowerAll::Certificate(Certificate {
@@ -71,8 +71,8 @@ impl ForceKept {
             Ok(fair.solve(operation)?.assessment.healthy_impact)
         };
         Self {
-            healthy: Verdict::new(operation, Scope::Healthy),
-            all: Verdict::new(operation, Scope::All),
+            healthy: Lowerable::new(operation, Scope::Healthy),
+            all: Lowerable::new(operation, Scope::All),
             no_healthy_joint_worse: least(Scope::Healthy),
             no_joint_worse: least(Scope::All),
         }

@@ -10,10 +10,13 @@ mod campaign;
 mod case;
 mod force_kept;
 mod limited;
+mod lock;
 mod plan_steps;
 mod rollout;
 mod runner;
+mod sweep;
 mod truth;
+mod verdict;
 
 use nalgebra::SVector;
 
@@ -26,12 +29,14 @@ pub use ablation::{Ablation, AblationOutcome, AblationRow, Variant};
 pub use bound::{BoundSide, CoefficientBound};
 pub use campaign::{Campaign, CampaignCase, CampaignResult};
 pub use case::{Case, Search, SearchMethod, Study, Tradeoff};
-pub use force_kept::{ForceKept, Verdict};
+pub use force_kept::{ForceKept, Lowerable};
 pub use limited::{LimitedJoint, LimitedSuppression};
 pub use plan_steps::{PlanSteps, PlannedTorques, ProfileSteps, TorqueStep};
 pub use rollout::{Rollout, Series};
 pub use runner::ExperimentRunner;
+pub use sweep::{Felt, Rotors, Sweep, SweepPoint};
 pub use truth::{BrakeImpulse, Truth, TruthRun};
+pub use verdict::{LockVerdict, Verdict};
 
 /// Why a scenario cannot be tried out.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -94,11 +99,15 @@ pub(crate) fn rated_torque_of<const N: usize>(
     let Some(rated) = rated else {
         return Ok(SVector::repeat(f64::INFINITY));
     };
-    let rated = <[f64; N]>::try_from(rated).map_err(|_| ExperimentError::Joints {
-        experiment: rated.len(),
+    for_each_joint(rated)
+}
+
+fn for_each_joint<const N: usize>(numbers: &[f64]) -> Result<SVector<f64, N>, ExperimentError> {
+    let numbers = <[f64; N]>::try_from(numbers).map_err(|_| ExperimentError::Joints {
+        experiment: numbers.len(),
         arm: N,
     })?;
-    Ok(rated.into())
+    Ok(numbers.into())
 }
 
 fn list<const N: usize>(vector: &SVector<f64, N>) -> Vec<f64> {

@@ -102,6 +102,14 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
         })
     }
 
+    /// The scenario's failure at one time.
+    pub(super) fn failure(&self, time: f64) -> Failure<N> {
+        Failure {
+            joints: self.failed_joints,
+            time,
+        }
+    }
+
     pub(super) fn operation(
         &self,
         experiment: &Experiment,
@@ -118,10 +126,7 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
         field: Field,
         effort: f64,
     ) -> Result<Operation<N>, ExperimentError> {
-        let failure = Failure {
-            joints: self.failed_joints,
-            time: failure_time,
-        };
+        let failure = self.failure(failure_time);
         let options = OperationOptions {
             sample_period: self.scenario.cycle(),
             step_time: experiment.step_time(),
@@ -129,6 +134,7 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
             rated_torque: rated_torque(experiment)?,
             field,
             effort,
+            projector: self.scenario.servo().projector(),
             ..OperationOptions::default()
         };
         let force = |time| experiment.force().at(time);
@@ -157,8 +163,9 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
         };
         let assessment = operation.assess(&compensation);
         let failure = operation.failure();
-        let controller =
-            Controller::new(self.arm, compensation).with_rated_torque(*operation.rated_torque());
+        let controller = Controller::new(self.arm, compensation)
+            .with_rated_torque(*operation.rated_torque())
+            .with_projector(self.scenario.servo().projector());
         let rollout = Rollout::execute(
             &controller,
             &self.motion,

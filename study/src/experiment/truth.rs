@@ -1,16 +1,13 @@
 //! [`Truth`]: what the arm really does at the lock, beside the impact torque that the paper predicts.
 
-use std::ops::Range;
-
 use nalgebra::SVector;
 
-use super::{AnyArm, ExperimentError, ExperimentRunner, SearchMethod, list, rated_torque};
+use super::lock::{FINE, Lock, UNSEEN};
+use super::{ExperimentError, ExperimentRunner, SearchMethod, list};
 use crate::scenario::Experiment;
-use crate::simulation::{
-    Brake, Control, Ending, Feedback, Impact, Outcome, Resolution, Sample, Simulation,
-};
+use crate::simulation::{Brake, Ending, ideal_lock, tool_acceleration};
 use ulna::Trajectory;
-use ulna::control::compensation::{Compensation, Controller};
+use ulna::control::compensation::{Compensation, Projector};
 use ulna::control::failure::{Failure, LockedJoints};
 
 /// One experiment and one failure time, simulated with brakes that take time.
@@ -24,10 +21,27 @@ pub struct Truth {
     pub failed_joints: Vec<usize>,
     /// How long the brakes take in [`runs`](Self::runs), s.
     pub brake_time: f64,
+    /// From the failure until the controller knows, s.
+    pub detection: f64,
+    /// The servo's gain, rad/s ([`ServoSettings::gain`](crate::scenario::ServoSettings::gain)).
+    pub gain: f64,
+    /// The rotors as the joints feel them, kg·m² (kg); one entry for each joint.
+    pub reflected_inertia: Vec<f64>,
+    /// The projector of the compensations.
+    pub projector: Projector,
+    /// So long the compensation has acted before the lock, s.
+    pub lead: f64,
+    /// The mean torque, N·m (N), by which each joint's differs while the brake acts, to first order and if the healthy joints keep their rates:
+    /// that of the acceleration `−q̇_k/T` ([`LockImpulse::if_rates_are_kept`](crate::simulation::LockImpulse::if_rates_are_kept)` / T`),
+    /// which the predicted step does not contain. At the planned state; after the brake it is gone.
+    pub braking_step: Vec<f64>,
     /// Without compensation, with ever shorter brakes.
     pub convergence: Vec<BrakeImpulse>,
     /// Without compensation and with those of three methods.
     pub runs: Vec<TruthRun>,
+    /// The methods whose compensation moves the arm so violently that the simulation did not come to its end, and how that ended:
+    /// they are not among the runs.
+    pub unfinished: Vec<(SearchMethod, Ending)>,
 }
 
 /// The impulse of brakes that take some time, beside that of the ideal lock.
@@ -37,7 +51,7 @@ pub struct BrakeImpulse {
     pub brake_time: f64,
     /// What the brakes gave, N·m·s (N·s); one entry for each failed joint.
     pub impulse: Vec<f64>,
-    /// The ideal lock's; for a single joint k it is `−q̇_k / (M⁻¹)_kk`.
+    /// The ideal lock's; for a single joint k it is `−q̇_k / ((M + R)⁻¹)_kk`, R the rotors.
     pub ideal: Vec<f64>,
     /// The norm of their difference, relative to the ideal lock's.
     pub relative_difference: f64,
@@ -56,15 +70,18 @@ pub struct TruthRun {
     pub method: Option<SearchMethod>,
     /// The step of each joint's torque as the paper predicts it, after minus before, N·m (N).
     pub predicted_step: Vec<f64>,
-    /// The step as it is, from just before the lock to when the brakes have done their work.
+    /// The step of what each joint transmits as it is, from just before the lock to when the brakes have done their work and the controller knows.
     pub torque_step: Vec<f64>,
-    /// The largest torque from the lock on, brake and motor together.
+    /// The largest torque that each joint transmits from the lock on, N·m (N).
     pub peak_torque: Vec<f64>,
+    /// The acceleration that the compensation gives the tool, m/s² (with the rotations' rad/s², if the task has any):
+    /// the larger norm of just before and just after the lock, in the planned state ([`tool_acceleration`]).
+    pub tool_acceleration: f64,
     /// What the balance of energy does not account for, relative.
     pub energy_error: f64,
     /// s.
     pub time: Vec<f64>,
-    /// What each joint bears, motor and brake, N·m (N): a row for each time.
+    /// What each joint transmits, N·m (N): a row for each time.
     pub torque: Vec<Vec<f64>>,
     /// What the paper has it bear: the healthy joints keep to their plan.
     pub predicted_torque: Vec<Vec<f64>>,
@@ -74,61 +91,65 @@ pub struct TruthRun {
 const BRAKE_TIMES: [f64; 11] = [
     1.0, 3e-1, 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5,
 ];
-/// What is simulated around the lock, s.
-const BEFORE: f64 = 0.25;
+/// What is simulated after the brake, s.
 const AFTER: f64 = 0.75;
-/// A lock takes some hundred steps; what needs many more gets nowhere.
-const RESOLUTION: Resolution = Resolution {
-    tolerance: 1e-10,
-    sample_period: 0.01,
-    steps: 10_000,
-};
-/// How fast departures from the plan die out, rad/s.
-const FEEDBACK: f64 = 5.0;
 
 impl<const N: usize> ExperimentRunner<'_, N> {
-    /// One experiment with the brakes falling at `failure_time`.
+    /// One experiment with the brakes falling at `failure_time`, the servo and the rotors those of the scenario.
     ///
     /// # Errors
-    /// As [`study`](Self::study), and when a simulation cannot be run to its end.
+    /// As [`study`](Self::study), and when the simulation without compensation cannot be run to its end.
     pub fn truth(
         &self,
         experiment: &Experiment,
         failure_time: f64,
     ) -> Result<Truth, ExperimentError> {
         let operation = self.operation(experiment, failure_time)?;
-        let failure = *operation.failure();
-        let brake = Brake {
-            profile: self.scenario.brake().profile(),
-            ..Brake::new(failure, self.scenario.brake().duration())
-        };
-        let mut runs = vec![self.run_truth(experiment, None, Compensation::none(), brake)?];
-        for method in [
-            SearchMethod::PerJoint,
-            SearchMethod::Projected,
-            SearchMethod::Optimal,
-        ] {
-            if let Ok(found) = self.search(&operation, method) {
-                runs.push(self.run_truth(experiment, Some(method), found.compensation, brake)?);
+        let lock = self.lock(failure_time)?;
+        let (mut runs, mut unfinished) = (Vec::new(), Vec::new());
+        for (method, compensation) in self.compensations(&operation) {
+            let run = self.run_truth(experiment, method, compensation, &lock);
+            match (run, method) {
+                (Err(ExperimentError::Unfinished { ending, .. }), Some(method)) => {
+                    unfinished.push((method, ending));
+                }
+                (run, _) => runs.push(run?),
             }
         }
         let convergence = BRAKE_TIMES.iter().filter_map(|duration| {
             let brake = Brake {
                 duration: *duration,
-                ..brake
+                ..lock.brake
             };
             // A brake that is not done when the motion ends says nothing about a lock in it.
             let fits = failure_time + duration <= self.motion().duration();
-            fits.then(|| self.brake_impulse(experiment, brake))
+            fits.then(|| self.brake_impulse(experiment, &Lock { brake, ..lock }))
         });
         Ok(Truth {
             section: experiment.section().to_owned(),
             failure_time,
-            failed_joints: failure.joints.iter().collect(),
-            brake_time: brake.duration,
+            failed_joints: lock.brake.failure.joints.iter().collect(),
+            brake_time: lock.brake.duration,
+            detection: lock.brake.detection,
+            gain: lock.gain,
+            reflected_inertia: list(&lock.reflected_inertia),
+            projector: self.scenario.servo().projector(),
+            lead: lock.lead,
+            braking_step: list(&self.braking_step(&lock)),
             convergence: convergence.collect::<Result<_, _>>()?,
             runs,
+            unfinished,
         })
+    }
+
+    fn braking_step(&self, lock: &Lock<N>) -> SVector<f64, N> {
+        let Failure { joints, time } = lock.brake.failure;
+        let planned = self.motion().state(time);
+        let rotors = &lock.reflected_inertia;
+        ideal_lock(self.arm, &planned.q, &planned.qd, joints, rotors)
+            .map_or_else(SVector::zeros, |impulse| {
+                impulse.if_rates_are_kept / lock.brake.duration
+            })
     }
 
     fn run_truth(
@@ -136,24 +157,29 @@ impl<const N: usize> ExperimentRunner<'_, N> {
         experiment: &Experiment,
         method: Option<SearchMethod>,
         compensation: Compensation<N>,
-        brake: Brake<N>,
+        lock: &Lock<N>,
     ) -> Result<TruthRun, ExperimentError> {
-        let failure = brake.failure;
-        let start = (failure.time - BEFORE).max(0.0);
-        let end = failure.time + AFTER + brake.duration;
+        let failure = lock.brake.failure;
+        let start = lock.span().start;
+        let end = failure.time + AFTER + lock.settled();
         let mut run = TruthRun {
             method,
             predicted_step: Vec::new(),
             torque_step: Vec::new(),
             peak_torque: Vec::new(),
+            tool_acceleration: self.moved_tool(experiment, compensation, lock)?,
             energy_error: 0.0,
             time: Vec::new(),
             torque: Vec::new(),
             predicted_torque: Vec::new(),
         };
         let controller = self.controller(experiment, compensation)?;
-        let (impact, outcome) =
-            self.simulate(experiment, compensation, brake, start..end, &mut |sample| {
+        let (impact, outcome) = self.simulate(
+            experiment,
+            compensation,
+            lock,
+            (start..end, FINE),
+            &mut |sample| {
                 run.time.push(sample.time);
                 run.torque.push(list(&sample.joint_torque()));
                 let wrench = experiment.force().at(sample.time);
@@ -167,7 +193,8 @@ impl<const N: usize> ExperimentRunner<'_, N> {
                 };
                 let predicted = controller.cycle(&sample.planned, &wrench, locked);
                 run.predicted_torque.push(list(&predicted.torque));
-            })?;
+            },
+        )?;
         run.predicted_step = list(&impact.predicted_step);
         run.torque_step = list(&impact.torque_step);
         run.peak_torque = list(&impact.peak_torque);
@@ -175,31 +202,41 @@ impl<const N: usize> ExperimentRunner<'_, N> {
         Ok(run)
     }
 
+    /// [`TruthRun::tool_acceleration`].
+    fn moved_tool(
+        &self,
+        experiment: &Experiment,
+        compensation: Compensation<N>,
+        lock: &Lock<N>,
+    ) -> Result<f64, ExperimentError> {
+        let Failure { joints, time } = lock.brake.failure;
+        let (planned, wrench) = (self.motion().state(time), experiment.force().at(time));
+        let controller = self.controller(experiment, compensation)?;
+        let sides = [LockedJoints::NONE, joints].map(|locked| {
+            let added = controller.cycle(&planned, &wrench, locked).compensation;
+            let rotors = &lock.reflected_inertia;
+            tool_acceleration(self.arm, &planned.q, &added, locked, rotors)
+                .map_or(0.0, |acceleration| acceleration.norm())
+        });
+        Ok(sides[0].max(sides[1]))
+    }
+
     fn brake_impulse(
         &self,
         experiment: &Experiment,
-        brake: Brake<N>,
+        lock: &Lock<N>,
     ) -> Result<BrakeImpulse, ExperimentError> {
-        let Failure { joints, time } = brake.failure;
-        let mut peak_brake_torque = 0.0_f64;
+        let joints = lock.brake.failure.joints;
         // From the planned state on, so that the ideal lock is the same for all.
-        let span = time..time + brake.duration * 1.01;
-        let (impact, outcome) = self.simulate(
-            experiment,
-            Compensation::none(),
-            brake,
-            span,
-            &mut |sample| {
-                if sample.elapsed <= brake.duration {
-                    peak_brake_torque = peak_brake_torque.max(sample.brake.amax());
-                }
-            },
-        )?;
+        let span = lock.brake.failure.time..lock.span().end;
+        let none = Compensation::none();
+        let (impact, outcome) =
+            self.simulate(experiment, none, lock, (span, UNSEEN), &mut |_| ())?;
         let difference = impact.brake_impulse - impact.ideal.brake;
         let ideal = impact.ideal.brake;
         let failed = |vector: &SVector<f64, N>| joints.iter().map(|joint| vector[joint]).collect();
         Ok(BrakeImpulse {
-            brake_time: brake.duration,
+            brake_time: lock.brake.duration,
             impulse: failed(&impact.brake_impulse),
             ideal: failed(&ideal),
             relative_difference: if ideal.norm() > 0.0 {
@@ -207,45 +244,9 @@ impl<const N: usize> ExperimentRunner<'_, N> {
             } else {
                 difference.norm()
             },
-            peak_brake_torque,
+            peak_brake_torque: impact.peak_brake_torque.amax(),
             energy_error: outcome.balance.energy_error,
             momentum_error: outcome.balance.momentum_error,
         })
-    }
-
-    fn controller(
-        &self,
-        experiment: &Experiment,
-        compensation: Compensation<N>,
-    ) -> Result<Controller<'_, AnyArm<N>, N>, ExperimentError> {
-        let rated = rated_torque(experiment)?;
-        Ok(Controller::new(self.arm, compensation).with_rated_torque(rated))
-    }
-
-    fn simulate(
-        &self,
-        experiment: &Experiment,
-        compensation: Compensation<N>,
-        brake: Brake<N>,
-        span: Range<f64>,
-        observe: &mut dyn FnMut(&Sample<N>),
-    ) -> Result<(Impact<N>, Outcome<N>), ExperimentError> {
-        let simulation = Simulation {
-            plant: self.arm,
-            controller: self.controller(experiment, compensation)?,
-            trajectory: self.motion(),
-            wrench: |time| experiment.force().at(time),
-            feedback: Feedback::critical(FEEDBACK),
-            control: Control::Every(self.scenario.cycle()),
-            brake,
-        };
-        let outcome = simulation.run(span, &RESOLUTION, observe)?;
-        match (outcome.ending, outcome.impact) {
-            (Ending::Complete, Some(impact)) => Ok((impact, outcome)),
-            (ending, _) => Err(ExperimentError::Unfinished {
-                time: brake.failure.time,
-                ending,
-            }),
-        }
     }
 }

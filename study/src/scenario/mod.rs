@@ -4,6 +4,7 @@
 //! The files in `scenarios/` show all keys.
 
 mod arm;
+mod drives;
 mod experiment;
 mod force;
 mod format;
@@ -13,6 +14,7 @@ mod settings;
 mod validate;
 
 pub use arm::{KnownArm, ScenarioArm};
+pub use drives::{MotorSettings, ServoSettings};
 pub use experiment::{Experiment, Figure, FigureKind, Reference};
 pub use force::ToolForce;
 pub use format::reference;
@@ -40,6 +42,8 @@ pub struct Scenario {
     cycle: f64,
     search: SearchGrid,
     brake: BrakeSettings,
+    servo: ServoSettings,
+    motors: MotorSettings,
     experiments: Vec<Experiment>,
     campaign: CampaignSettings,
     assess: AssessSettings,
@@ -139,6 +143,16 @@ impl Scenario {
     /// The brakes of the failed joints, where the lock is simulated.
     pub fn brake(&self) -> BrakeSettings {
         self.brake
+    }
+
+    /// How the controller follows the plan, and its projector.
+    pub fn servo(&self) -> ServoSettings {
+        self.servo
+    }
+
+    /// The rotors behind their gears, where the lock is simulated.
+    pub fn motors(&self) -> &MotorSettings {
+        &self.motors
     }
 
     /// What is tried with the motion; at least one.

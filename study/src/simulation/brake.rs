@@ -1,6 +1,6 @@
 //! Brakes: how a joint is stopped in a finite time, and the impulse of stopping it in none.
 
-use nalgebra::{Cholesky, SVector};
+use nalgebra::{Cholesky, SMatrix, SVector};
 
 use ulna::Arm;
 use ulna::control::failure::{Failure, LockedJoints};
@@ -75,29 +75,33 @@ impl<const N: usize> Brake<N> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LockImpulse<const N: usize> {
     /// The impulse of each locked joint's brake; 0 for the others.
-    /// For one joint k it is `−q̇_k / (M⁻¹)_kk`.
+    /// For one joint k it is `−q̇_k / ((M + R)⁻¹)_kk`.
     pub brake: SVector<f64, N>,
-    /// The jump of all rates, rad/s (m/s): `M⁻¹` times the brakes' impulses.
+    /// The jump of all rates, rad/s (m/s): `(M + R)⁻¹` times the brakes' impulses.
     pub rate_jump: SVector<f64, N>,
-    /// The impulses that all joints would have to give so that the healthy ones keep their rates, as the paper assumes:
-    /// M times the jump of the locked joints' rates alone.
+    /// The impulses that all joints would transmit so that the healthy ones keep their rates, as the paper assumes:
+    /// M times the jump of the locked joints' rates alone. Rotors, on their side of the joint, play no part.
+    /// By the time that the stop takes, it is the mean torque of the acceleration `−q̇_k/T`, which Eq. 1 leaves out: it has `−q̈_k` alone.
     pub if_rates_are_kept: SVector<f64, N>,
 }
 
 /// The ideal lock of `locked` joints in `q`, which moves with `qd`: the limit of ever shorter brakes.
 ///
-/// No finite torque counts in no time, so that `M Δq̇ = p` with p = 0 at the healthy joints and `Δq̇ = −q̇` at the locked ones
+/// No finite torque counts in no time, so that `(M + R) Δq̇ = p` with p = 0 at the healthy joints and `Δq̇ = −q̇` at the locked ones
 /// (Featherstone, *Rigid Body Dynamics Algorithms*, 11.7: impulsive dynamics).
+/// R is the `reflected_inertia` of the rotors, on the diagonal.
 /// `None` if rounding leaves M without a Cholesky factor, as only absurd arguments can.
 pub fn ideal_lock<const N: usize>(
     arm: &(impl Arm<N> + ?Sized),
     q: &SVector<f64, N>,
     qd: &SVector<f64, N>,
     locked: LockedJoints<N>,
+    reflected_inertia: &SVector<f64, N>,
 ) -> Option<LockImpulse<N>> {
-    let mass_matrix = arm.mass_matrix(q);
+    let structure = arm.mass_matrix(q);
+    let mass_matrix = structure + SMatrix::from_diagonal(reflected_inertia);
     let stop = locked.without(qd) - qd;
-    let if_rates_are_kept = mass_matrix * stop;
+    let if_rates_are_kept = structure * stop;
     let healthy = Cholesky::new(locked.reduce_mass_matrix(&mass_matrix))?;
     let rate_jump = stop - healthy.solve(&locked.without(&if_rates_are_kept));
     let impulse = mass_matrix * rate_jump;

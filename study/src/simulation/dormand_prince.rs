@@ -77,6 +77,49 @@ const ERROR: [f64; 7] = [
     -1.0 / 40.0,
 ];
 
+/// What [`Step::at`] adds to the solution of order 5 between a step's ends (Hairer, Nørsett, Wanner, II.6, after Shampine).
+const BETWEEN: [f64; 7] = [
+    -12_715_105_075.0 / 11_282_082_432.0,
+    0.0,
+    87_487_479_700.0 / 32_700_410_799.0,
+    -10_690_763_975.0 / 1_880_347_072.0,
+    701_980_252_875.0 / 199_316_789_632.0,
+    -1_453_857_185.0 / 822_651_844.0,
+    69_997_945.0 / 29_380_423.0,
+];
+
+/// A step that was taken, to be looked into.
+pub(super) struct Step<S> {
+    from: f64,
+    to: f64,
+    length: f64,
+    start: S,
+    slopes: [S; 7],
+}
+
+impl<S: State> Step<S> {
+    /// The time and the state after the share `s`, 0 to 1, of the step: continuous output of order 4.
+    pub(super) fn at(&self, s: f64) -> (f64, S) {
+        let rest = 1.0 - s;
+        let solution = &STAGES[5].1;
+        let weights: [f64; 7] = std::array::from_fn(|i| {
+            let whole = solution.get(i).copied().unwrap_or(0.0);
+            let (first, last) = (f64::from(u8::from(i == 0)), f64::from(u8::from(i == 6)));
+            let bent = 2.0 * whole - first - last + rest * BETWEEN[i];
+            s * (whole + rest * (first - whole + s * bent))
+        });
+        let time = if s == 1.0 {
+            self.to
+        } else {
+            self.from + self.length * s
+        };
+        (
+            time,
+            self.start + combine(&self.slopes, &weights) * self.length,
+        )
+    }
+}
+
 /// Takes steps, and remembers between calls how long they may be.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stepper {
@@ -105,13 +148,14 @@ impl Stepper {
         self.step = first_step.min(self.step);
     }
 
-    /// Takes `state` from the time `from` to `to`, hit exactly.
+    /// Takes `state` from the time `from` to `to`, hit exactly, and shows every step that it takes to `watch`.
     pub(super) fn advance<S: State>(
         &mut self,
         state: &mut S,
         from: f64,
         to: f64,
         slope: impl Fn(f64, &S) -> S,
+        mut watch: impl FnMut(&Step<S>),
     ) -> Result<(), Stop> {
         let mut time = from;
         let mut first = slope(time, state);
@@ -140,8 +184,16 @@ impl Stepper {
             stop = Stop::StepTooShort;
             let factor = (0.9 * ComplexField::powf(error.max(1e-10), -0.2)).clamp(0.2, 5.0);
             if error <= 1.0 {
+                let start = std::mem::replace(state, next);
+                let from = time;
                 time = if last { to } else { time + step };
-                *state = next;
+                watch(&Step {
+                    from,
+                    to: time,
+                    length: step,
+                    start,
+                    slopes,
+                });
                 first = slopes[6];
                 self.taken += 1;
                 // A step cut short by `to` says nothing against the longer one.

@@ -11,7 +11,7 @@ use super::dormand_prince::State;
 pub(super) struct Flow<const N: usize> {
     pub(super) q: SVector<f64, N>,
     pub(super) qd: SVector<f64, N>,
-    /// What the joint-space momentum `M q̇` should have gained, N·m·s.
+    /// What the joint-space momentum `(M + R) q̇` should have gained, N·m·s.
     pub(super) momentum: SVector<f64, N>,
     /// The brakes' part of it.
     pub(super) brake_impulse: SVector<f64, N>,

@@ -3,12 +3,16 @@
 //! The impact torque of Eq. 1–12 assumes that the healthy joints keep their planned motion through the lock.
 //! Here nothing is assumed: the arm obeys
 //!
-//! `M q̈ + c(q, q̇) + g(q) + Jᵀ F_e = τ_motor + τ_brake`,
+//! `(M + R) q̈ + c(q, q̇) + g(q) + Jᵀ F_e = τ_motor + τ_brake`,
 //!
-//! with `F_e` the wrench that the tool exerts on its surroundings; motors give what the [`Controller`] asks for (computed torque
+//! with `F_e` the wrench that the tool exerts on its surroundings and R the inertia of the rotors behind their gears; motors give what the [`Controller`] asks for (computed torque
 //! along the planned motion, plus compensation), and the brakes take their joints to rest in a finite time and hold them.
 //! A braked joint's acceleration is given, so that it is eliminated from the equations and its torque computed: exact, without a penalty.
 //! The limit of ever shorter brakes is the impulse of [`ideal_lock`].
+//!
+//! What a joint transmits to the structure is `τ_motor + τ_brake − R q̈`: what accelerates its rotor does not get through.
+//! Without rotors (direct drive) all does. With heavy ones the arm cannot push its joints about, and the healthy ones keep their plan as Eq. 1–12 have it;
+//! but then the rotors also take up what a compensation adds.
 //!
 //! Beside the motion, work and impulses are integrated; [`Balance`] says how well energy and momentum account for it.
 //! Motors follow their commands at once.
@@ -33,6 +37,7 @@
 //!         feedback: Feedback::critical(5.0),
 //!         control: Control::Every(1e-3),
 //!         brake: Brake::new(failure, 0.1),
+//!         reflected_inertia: [0.0; N].into(),
 //!     };
 //!     let span = 0.0..trajectory.duration();
 //!     let outcome = simulation.run(span, &Resolution::default(), |_| ()).ok()?;
@@ -46,7 +51,9 @@ mod dormand_prince;
 mod flow;
 mod motion;
 mod outcome;
+mod peak;
 mod run;
+mod tool_acceleration;
 
 use std::ops::Range;
 
@@ -60,6 +67,7 @@ use flow::Flow;
 pub use flow::Work;
 pub use outcome::{Balance, Ending, Impact, Outcome};
 use run::Run;
+pub use tool_acceleration::tool_acceleration;
 
 /// An arm, its controller, its task and its failure.
 #[derive(Clone, Copy, Debug)]
@@ -78,6 +86,9 @@ pub struct Simulation<'a, P: ?Sized, A: ?Sized, T, W, const N: usize> {
     pub control: Control,
     /// The failure.
     pub brake: Brake<N>,
+    /// R, the inertia of each joint's rotor as the joint feels it: its own times the square of its gear's ratio, kg·m² (kg).
+    /// Controllers know it, and give what its planned acceleration takes on top of their torque; rated torques are about the latter.
+    pub reflected_inertia: SVector<f64, N>,
 }
 
 /// The gains of computed torque: `q̈ = q̈_planned + rate (q̇_planned − q̇) + position (q_planned − q)`
@@ -127,18 +138,21 @@ pub enum Control {
 pub struct Resolution {
     /// Bound of a step's local error in every entry of the state, relative to 1 (rad, rad/s, J, N·m·s) plus its size.
     pub tolerance: f64,
-    /// The largest time between two samples, s. Every stretch between two events has 16 at least.
+    /// The largest time between two samples, s.
     pub sample_period: f64,
+    /// Samples that every stretch between two events has at least, so that a short brake is seen too; 0 counts as 1.
+    pub samples_at_least: u32,
     /// Steps that are tried at most, so that a run ends whatever is asked of it.
     pub steps: u32,
 }
 
 impl Default for Resolution {
-    /// 1e-10, 10 ms and a hundred thousand steps.
+    /// 1e-10, 10 ms, 16 samples between two events and a hundred thousand steps.
     fn default() -> Self {
         Self {
             tolerance: 1e-10,
             sample_period: 0.01,
+            samples_at_least: 16,
             steps: 100_000,
         }
     }
@@ -159,14 +173,16 @@ pub struct Sample<const N: usize> {
     pub motor: SVector<f64, N>,
     /// The brakes' torques, N·m (N); 0 where none acts.
     pub brake: SVector<f64, N>,
+    /// What accelerates the rotors, `R q̈`, N·m (N).
+    pub rotor: SVector<f64, N>,
     /// The control cycle that made the motors' torques.
     pub control: Cycle<N>,
 }
 
 impl<const N: usize> Sample<N> {
-    /// What each joint transmits, N·m (N): its motor's torque and its brake's.
+    /// What each joint transmits to the structure, N·m (N): its motor's torque and its brake's, without what its rotor takes up.
     pub fn joint_torque(&self) -> SVector<f64, N> {
-        self.motor + self.brake
+        self.motor + self.brake - self.rotor
     }
 }
 
@@ -262,6 +278,7 @@ where
             ("detection", self.brake.detection),
             ("feedback's position gain", self.feedback.position),
             ("feedback's rate gain", self.feedback.rate),
+            ("rotors' inertia", self.least_rotor()),
         ] {
             if !(value.is_finite() && value >= 0.0) {
                 return Err(SimulationError::Negative(name, value));
@@ -270,11 +287,19 @@ where
         Ok(())
     }
 
+    /// The least of the rotors' inertias, or one that is no finite number.
+    fn least_rotor(&self) -> f64 {
+        let mut rotors = self.reflected_inertia.iter().copied();
+        let odd = rotors.clone().find(|inertia| !inertia.is_finite());
+        odd.unwrap_or_else(|| rotors.by_ref().fold(f64::MAX, f64::min))
+    }
+
     fn balance(&self, start: &Flow<N>, end: &Flow<N>) -> Balance<N> {
-        let (p0, p1) = (
-            self.plant.mass_matrix(&start.q) * start.qd,
-            self.plant.mass_matrix(&end.q) * end.qd,
-        );
+        let momentum = |flow: &Flow<N>| {
+            let rotors = self.reflected_inertia.component_mul(&flow.qd);
+            self.plant.mass_matrix(&flow.q) * flow.qd + rotors
+        };
+        let (p0, p1) = (momentum(start), momentum(end));
         let (kinetic0, kinetic1) = (0.5 * p0.dot(&start.qd), 0.5 * p1.dot(&end.qd));
         let kinetic = kinetic1 - kinetic0;
         let largest = end.work.largest().max(kinetic0).max(kinetic1);

@@ -1,6 +1,6 @@
 //! The equations of motion with brakes: what moves the arm at one instant.
 
-use nalgebra::{Cholesky, SVector, Vector6};
+use nalgebra::{Cholesky, SMatrix, SVector, Vector6};
 
 use super::flow::{Flow, Work};
 use super::{Sample, Simulation};
@@ -39,8 +39,17 @@ pub(super) enum Stage<const N: usize> {
 pub(super) struct Instant<const N: usize> {
     command: Command<N>,
     brake: SVector<f64, N>,
+    /// What goes into accelerating the rotors.
+    rotor: SVector<f64, N>,
     qdd: SVector<f64, N>,
     pub(super) slope: Flow<N>,
+}
+
+impl<const N: usize> Instant<N> {
+    /// What each joint transmits, and what its brake gives.
+    pub(super) fn loads(&self) -> (SVector<f64, N>, SVector<f64, N>) {
+        (self.command.motor + self.brake - self.rotor, self.brake)
+    }
 }
 
 impl<P, A, T, W, const N: usize> Simulation<'_, P, A, T, W, N>
@@ -52,7 +61,7 @@ where
 {
     /// The instant `elapsed` s after the failure.
     ///
-    /// `M q̈ + c + g + Jᵀ F_e = τ_motor + τ_brake`, in which a braked joint's q̈ is given and its `τ_brake` asked for.
+    /// `(M + R) q̈ + c + g + Jᵀ F_e = τ_motor + τ_brake`, in which a braked joint's q̈ is given and its `τ_brake` asked for.
     pub(super) fn instant(&self, elapsed: f64, flow: &Flow<N>, phase: &Phase<N>) -> Instant<N> {
         let wrench = (self.wrench)(self.brake.failure.time + elapsed);
         let command = match phase.command {
@@ -63,6 +72,7 @@ where
 
         let (q, qd) = (&flow.q, &flow.qd);
         let (mass_matrix, derivatives) = self.plant.mass_matrix_and_derivatives(q);
+        let mass_matrix = mass_matrix + SMatrix::from_diagonal(&self.reflected_inertia);
         let gravity = self.plant.gravity_torque(q);
         let tool = self.plant.geometric_jacobian(q).tr_mul(&-wrench);
         let applied = motor + tool - self.plant.bias_force(q, qd);
@@ -76,11 +86,12 @@ where
         let missing = mass_matrix * qdd - applied;
         let brake = missing - braked.without(&missing);
 
-        // Hamilton: d(M q̇)/dt = generalized forces + ∂T/∂q, from ∂M/∂q instead of c(q, q̇).
+        // Hamilton: d((M + R) q̇)/dt = generalized forces + ∂T/∂q, from ∂M/∂q instead of c(q, q̇).
         let kinetic_gradient = SVector::from_fn(|i, _| 0.5 * (derivatives[i] * qd).dot(qd));
         Instant {
             command,
             brake,
+            rotor: self.reflected_inertia.component_mul(&qdd),
             qdd,
             slope: Flow {
                 q: *qd,
@@ -98,6 +109,7 @@ where
     }
 
     /// What the controller makes of the measured state: computed torque along the planned motion, and the compensation.
+    /// What the rotors take to accelerate as they should is given to them besides.
     pub(super) fn command(
         &self,
         elapsed: f64,
@@ -114,9 +126,10 @@ where
                 + (planned.q - flow.q) * self.feedback.position,
         };
         let cycle = self.controller.cycle(&state, &(self.wrench)(time), known);
+        let rotor = self.reflected_inertia.component_mul(&state.qdd);
         Command {
             cycle,
-            motor: known.without(&cycle.torque),
+            motor: known.without(&(cycle.torque + rotor)),
         }
     }
 
@@ -152,6 +165,7 @@ where
             planned,
             motor: instant.command.motor,
             brake: instant.brake,
+            rotor: instant.rotor,
             control: instant.command.cycle,
         }
     }

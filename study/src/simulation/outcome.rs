@@ -18,25 +18,27 @@ pub struct Impact<const N: usize> {
     pub rate_jump: SVector<f64, N>,
     /// The change of the planned rates in that time, for the locked joints down to 0: the paper's assumption.
     pub planned_rate_jump: SVector<f64, N>,
-    /// The change of the joints' torques from just before the failure to just after the brakes' work was done and the controller knew,
+    /// The change of what the joints transmit from just before the failure to just after the brakes' work was done and the controller knew,
     /// as a control cycle at either time makes them, N·m (N).
     pub torque_step: SVector<f64, N>,
     /// The same as the paper predicts it (Eq. 18), for the planned motion at the failure: after minus before, compensation included.
     pub predicted_step: SVector<f64, N>,
-    /// The largest torques (without sign) seen in any sample from the failure on, N·m (N).
+    /// The largest torques (without sign) that the joints transmit from the failure on, N·m (N): at any time, not at samples alone.
     pub peak_torque: SVector<f64, N>,
+    /// The largest torques (without sign) of the brakes until the joints stand still, N·m (N); of no use for a brake that takes no time.
+    pub peak_brake_torque: SVector<f64, N>,
 }
 
 /// How energy and momentum account for the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance<const N: usize> {
-    /// The change of kinetic energy `½ q̇ᵀ M q̇`, J.
+    /// The change of kinetic energy `½ q̇ᵀ (M + R) q̇`, J.
     pub kinetic: f64,
     /// The work that should account for it.
     pub work: Work,
     /// What it does not account for, relative to the largest of these energies.
     pub energy_error: f64,
-    /// What the impulses do not account for of the change of `M q̇`, relative to the largest entry of both.
+    /// What the impulses do not account for of the change of `(M + R) q̇`, relative to the largest entry of both.
     pub momentum_error: f64,
 }
 

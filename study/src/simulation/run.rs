@@ -4,15 +4,13 @@ use std::ops::Range;
 
 use nalgebra::{ComplexField, SVector, Vector6};
 
-use super::dormand_prince::{Stepper, Stop};
+use super::dormand_prince::{Step, Stepper, Stop};
 use super::flow::Flow;
 use super::motion::{Command, Phase, Stage};
+use super::peak::Peaks;
 use super::{Control, Ending, Impact, Resolution, Sample, Simulation, ideal_lock};
 use ulna::control::trajectory::Trajectory;
 use ulna::{Arm, LockedJoints, Status};
-
-/// Samples between two events are at least so many, so that a short brake is seen too.
-const SAMPLES_PER_PHASE: f64 = 16.0;
 
 pub(super) struct Run<'a, 's, P: ?Sized, A: ?Sized, T, W, const N: usize> {
     simulation: &'a Simulation<'s, P, A, T, W, N>,
@@ -31,6 +29,8 @@ pub(super) struct Run<'a, 's, P: ?Sized, A: ?Sized, T, W, const N: usize> {
     next_cycle: f64,
     /// Known in part from the failure on, in full once `settled`.
     impact: Option<Impact<N>>,
+    /// From the failure on.
+    peaks: Peaks<N>,
     settled: bool,
 }
 
@@ -58,12 +58,18 @@ where
             held: None,
             next_cycle: 0.0,
             impact: None,
+            peaks: Peaks::default(),
             settled: false,
         }
     }
 
     pub(super) fn impact(&self) -> Option<Impact<N>> {
-        self.impact.filter(|_| self.settled)
+        let impact = self.impact.filter(|_| self.settled)?;
+        Some(Impact {
+            peak_torque: self.peaks.torque,
+            peak_brake_torque: self.peaks.brake,
+            ..impact
+        })
     }
 
     pub(super) fn steps(&self) -> u32 {
@@ -118,8 +124,8 @@ where
         let stop = to.min(self.end);
         let length = stop - from;
         if length > 0.0 {
-            let samples =
-                ComplexField::ceil(length / self.resolution.sample_period).max(SAMPLES_PER_PHASE);
+            let least = f64::from(self.resolution.samples_at_least.max(1));
+            let samples = ComplexField::ceil(length / self.resolution.sample_period).max(least);
             self.stepper.restart(length / samples);
             let mut phase = Phase {
                 stage,
@@ -171,8 +177,19 @@ where
     fn advance(&mut self, from: f64, to: f64, phase: &Phase<N>) -> Result<(), Ending> {
         let simulation = self.simulation;
         let slope = |elapsed: f64, flow: &Flow<N>| simulation.instant(elapsed, flow, phase).slope;
+        let failed = self.impact.is_some();
+        let peaks = &mut self.peaks;
+        let watch = |step: &Step<Flow<N>>| {
+            if failed {
+                let loads = |share: f64| {
+                    let (elapsed, flow) = step.at(share);
+                    simulation.instant(elapsed, &flow, phase).loads()
+                };
+                peaks.look(loads, matches!(phase.stage, Stage::Braking(_)));
+            }
+        };
         self.stepper
-            .advance(&mut self.flow, from, to, slope)
+            .advance(&mut self.flow, from, to, slope, watch)
             .map_err(|stop| match stop {
                 Stop::NotFinite => Ending::NotFinite,
                 Stop::StepTooShort => Ending::StepTooShort,
@@ -182,9 +199,6 @@ where
     fn sample(&mut self, elapsed: f64, phase: &Phase<N>) {
         let sample = self.simulation.sample(elapsed, &self.flow, phase);
         self.status = self.status.max(sample.control.status);
-        if let Some(impact) = &mut self.impact {
-            impact.peak_torque = impact.peak_torque.sup(&sample.joint_torque().abs());
-        }
         (self.observe)(&sample);
     }
 
@@ -200,8 +214,8 @@ where
             command: None,
         };
         let torque = simulation.sample(0.0, &self.flow, &before).joint_torque();
-        let ideal = ideal_lock(simulation.plant, &self.flow.q, &self.flow.qd, joints)
-            .ok_or(Ending::NotFinite)?;
+        let (q, qd, rotors) = (&self.flow.q, &self.flow.qd, &simulation.reflected_inertia);
+        let ideal = ideal_lock(simulation.plant, q, qd, joints, rotors).ok_or(Ending::NotFinite)?;
 
         let planned = simulation.trajectory.state(time);
         let wrench = (simulation.wrench)(time);
@@ -222,7 +236,9 @@ where
             torque_step: torque,
             planned_rate_jump: planned_after.qd - planned.qd,
             predicted_step: predicted(joints) - predicted(LockedJoints::NONE),
+            // Filled in when all is over.
             peak_torque: SVector::zeros(),
+            peak_brake_torque: SVector::zeros(),
         });
 
         if brake.duration == 0.0 {

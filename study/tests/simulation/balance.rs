@@ -73,6 +73,7 @@ fn balances_hold_with_two_joints_braked_and_a_growing_force() {
         feedback: Feedback::critical(3.0),
         control: Control::Every(1e-3),
         brake: Brake::new(lock(&[1, 3], 6.0), 0.2),
+        reflected_inertia: SVector::zeros(),
     };
     let outcome = simulation
         .run(5.7..6.7, &Resolution::default(), |_| ())

@@ -154,7 +154,7 @@ fn a_brake_of_no_duration_is_the_ideal_lock() {
 fn an_ideal_lock_of_two_joints_stops_both_and_pushes_no_other() {
     let state = crate::ssrms_motion().state(7.0);
     let joints = LockedJoints::new(&[1, 3]).unwrap();
-    let lock = ideal_lock(&Ssrms, &state.q, &state.qd, joints).unwrap();
+    let lock = ideal_lock(&Ssrms, &state.q, &state.qd, joints, &SVector::zeros()).unwrap();
     let mass_matrix = Ssrms.mass_matrix(&state.q);
     let inverse = mass_matrix.try_inverse().unwrap();
     let pick =

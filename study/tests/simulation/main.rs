@@ -3,6 +3,8 @@
 mod balance;
 mod brakes;
 mod healthy_joints;
+mod peaks;
+mod rotors;
 mod runs;
 
 use ulna::nalgebra::{SVector, Vector6};
@@ -64,6 +66,7 @@ fn ssrms(
         feedback: Feedback::NONE,
         control: Control::Continuous,
         brake: Brake::new(lock(&[1], 10.0), duration),
+        reflected_inertia: SVector::zeros(),
     }
 }
 
@@ -78,6 +81,7 @@ fn oblique(motion: &Trapezoid<6>, joint: usize, duration: f64) -> Failing<'_, Ob
         feedback: Feedback::critical(8.0),
         control: Control::Continuous,
         brake: Brake::new(lock(&[joint], 1.2), duration),
+        reflected_inertia: SVector::zeros(),
     }
 }
 

@@ -117,6 +117,7 @@ fn numbers_that_are_none_end_the_run_where_they_appear() {
         feedback: Feedback::NONE,
         control: Control::Continuous,
         brake: Brake::none(),
+        reflected_inertia: SVector::zeros(),
     };
     let (series, outcome) = simulation.record(0.0..5.0, &Resolution::default()).unwrap();
     assert_eq!(outcome.ending, Ending::NotFinite);
@@ -135,6 +136,7 @@ fn feedback_too_stiff_to_follow_ends_the_run() {
         tolerance: 1e-3,
         sample_period: 1.0,
         steps: 1000,
+        ..Resolution::default()
     };
     let outcome = simulation.run(9.9..11.0, &resolution, |_| ()).unwrap();
     assert_eq!(outcome.ending, Ending::StepTooShort);

@@ -8,6 +8,7 @@ use ulna_study::experiment::{SearchMethod, Truth, TruthRun};
 use crate::reproduce::Findings;
 use crate::reproduce::drawings::{CONVERGENCE, SIMULATED};
 use crate::reproduce::words::{joints_named, name, seconds, significant};
+use crate::setting::Setting;
 
 /// The norms of a run's step over the healthy joints, one for each failure time.
 fn steps(
@@ -37,13 +38,15 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
         .map(|run| run.energy_error);
     writeln!(
         page,
-        "Eq. 1-12 and 18 have the healthy joints keep their plan through the lock. No real brake and no motor brings that about: \
-         what stops {} takes impulses from all joints. Here the arm is simulated, with a brake that takes {} s, computed torque, feedback and the \
-         compensation of each law, under the force of the first experiment; energy is balanced to {:.0e} of its size. \
+        "Eq. 1-12 and 18 have the healthy joints keep their plan through the lock. No brake brings that about: \
+         what stops {} takes impulses from all joints. Here the arm is simulated under computed torque and the \
+         compensation of each law, with {}, under the force of the first experiment; energy is balanced to {:.0e} of its size. \
          The step of the healthy joints' torques (norm) that is predicted without compensation is {} N·m at {} s; what they bear after the brake is a step of {} N·m without \
-         compensation and of {} N·m under Eq. 16. A compensation that bends the tool force also moves an arm whose tool nothing holds, and the feedback works against it.\n",
+         compensation and of {} N·m under Eq. 16. A compensation also moves an arm whose tool nothing holds, and feedback, where there is some, works against it.\n",
         joints_named(scenario.failed_joints()),
-        scenario.brake().duration(),
+        truths
+            .first()
+            .map_or_else(String::new, |truth| Setting::of(truth).in_words()),
         energy.fold(0.0, f64::max),
         steps(truths, None, |run| &run.predicted_step),
         truths
@@ -84,7 +87,7 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
     if let Some(truth) = truths.get(truths.len() / 2) {
         writeln!(
             page,
-            "\nWith ever shorter brakes their impulse tends to that of the ideal lock, -q̇_k/(M⁻¹)_kk for a single joint k, \
+            "\nWith ever shorter brakes their impulse tends to that of the ideal lock, -q̇_k/((M + R)⁻¹)_kk for a single joint k, \
              and the difference shrinks at least in proportion to the brake's time. \
              A brake longer than the control cycle ({} s) also meets the feedback and what the plan asks for meanwhile. Lock at {} s:\n\n\
              | brake time, s | impulse, N·m·s | ideal lock | relative difference | peak torque of the brake, N·m |\n|---|---|---|---|---|",

@@ -3,6 +3,7 @@
 mod findings;
 mod lock;
 mod plan;
+mod verdict;
 
 use std::fmt::{self, Write};
 
@@ -48,6 +49,7 @@ pub(super) fn write(scenario: &Scenario, findings: &Findings) -> Result<String, 
     }
     plan::write(&mut page, &findings.plan_steps)?;
     lock::write(&mut page, scenario, findings)?;
+    verdict::write(&mut page, scenario, findings)?;
     files(&mut page)?;
     Ok(page)
 }
@@ -118,6 +120,7 @@ fn files(page: &mut String) -> fmt::Result {
          - `limits.csv`: what the rated torques cost, joint by joint, and what cuts which coefficient.\n\
          - `plan_steps.csv`: the torque steps of the plan itself with each profile, and those of the locks.\n\
          - `truth.csv`, `convergence.csv`: the simulated locks.\n\
+         - `sweep.csv`, `verdict.csv`: the locks simulated with all gains and rotors, and which compensation lowers what is felt of them.\n\
          - `series/`: torques and forces over time.\n\
          - `figures/`: SVG, and PNG of the same."
     )

@@ -54,6 +54,31 @@ pub(super) static BRAKE: Bound = Bound {
     unit: "s",
     help: "a brake takes its joint to rest in a finite time, for example 0.1 s",
 };
+pub(super) static GAIN: Bound = Bound {
+    range: 0.0..=1e4,
+    unit: "rad/s",
+    help: "a servo of an arm answers within some 1 to 50 rad/s; 0 is no feedback",
+};
+pub(super) static DETECTION: Bound = Bound {
+    range: 0.0..=10.0,
+    unit: "s",
+    help: "write how long the controller takes to know, for example 0.02 s",
+};
+pub(super) static LEAD: Bound = Bound {
+    range: 0.0..=10.0,
+    unit: "s",
+    help: "write how long the compensation has acted when the joint fails, for example 0.25 s",
+};
+pub(super) static ROTOR_INERTIA: Bound = Bound {
+    range: 0.0..=1e3,
+    unit: "kg m^2",
+    help: "write the rotor's own inertia, on its side of the gear, for example 1e-4 kg m^2",
+};
+pub(super) static RATIO: Bound = Bound {
+    range: 1e-3..=1e5,
+    unit: "(rad/m if prismatic)",
+    help: "a ratio is positive, for example 100",
+};
 pub(super) static COEFFICIENT: Bound = Bound {
     range: -1e16..=1e16,
     unit: "",

@@ -5,6 +5,8 @@ pub(super) mod bounds;
 pub(super) mod campaign;
 pub(super) mod experiment;
 pub(super) mod motion;
+pub(super) mod motors;
+pub(super) mod servo;
 mod words;
 
 use bounds::{
@@ -44,6 +46,8 @@ pub(super) static SCENARIO: Section = Section {
         &CONTROL,
         &SEARCH,
         &BRAKE,
+        &SERVO,
+        &MOTORS,
         &EXPERIMENTS,
         &CAMPAIGN,
         &ASSESS,
@@ -98,6 +102,20 @@ pub(super) static BRAKE: Key = Key::required(
     Kind::Table(&BRAKE_SECTION),
     "The brakes",
     "`[brake]` and below it `duration = 0.1`",
+)
+.need(Need::Optional("its keys have their defaults"));
+pub(super) static SERVO: Key = Key::required(
+    "servo",
+    Kind::Table(&servo::SERVO),
+    "The servo",
+    "`[servo]` and below it `gain = 5.0`",
+)
+.need(Need::Optional("its keys have their defaults"));
+pub(super) static MOTORS: Key = Key::required(
+    "motors",
+    Kind::Table(&motors::MOTORS),
+    "The rotors behind their gears",
+    "`[motors]` and below it `rotor_inertia = 1e-4`",
 )
 .need(Need::Optional("its keys have their defaults"));
 pub(super) static EXPERIMENTS: Key = Key::required(

@@ -1,6 +1,8 @@
 //! The words of a scenario.
 
-use crate::scenario::read::{Angles, FigureWord, MotionKind, ProfileWord, RatedWord};
+use crate::scenario::read::{
+    Angles, FigureWord, MotionKind, ProfileWord, ProjectorWord, RatedWord,
+};
 use crate::simulation::BrakeProfile;
 use ulna_table::toml_reader::{Choice, Word};
 
@@ -57,6 +59,21 @@ impl Choice for BrakeProfile {
             "smooth",
             Self::Smooth,
             "a deceleration that grows from 0 and falls back to it",
+        ),
+    ];
+}
+
+impl Choice for ProjectorWord {
+    const WORDS: &'static [Word<Self>] = &[
+        Word::new(
+            "static",
+            Self::Static,
+            "the paper's: no static force at the tool",
+        ),
+        Word::new(
+            "dynamically_consistent",
+            Self::DynamicallyConsistent,
+            "no acceleration of the tool; its static force is not 0",
         ),
     ];
 }

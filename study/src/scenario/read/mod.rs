@@ -3,6 +3,7 @@
 //! After this stage keys, types and words are right. Numbers of joints, units and bounds are `validate`'s business.
 //! A `None` stands for a value that is absent or has been reported.
 
+mod drives;
 mod experiment;
 mod motion;
 
@@ -12,6 +13,8 @@ use ulna_table::AngleUnit;
 use ulna_table::diagnostics::Sink;
 use ulna_table::toml_reader::{self, Fields, Located, SCENARIO, Value};
 
+pub(super) use drives::{CommonOrEach, MotorsTable, ProjectorWord, ServoTable};
+use drives::{read_motors, read_servo};
 pub(super) use experiment::{
     ExperimentTable, FigureTable, FigureWord, RatedTable, RatedWord, ReferenceTable,
 };
@@ -37,6 +40,8 @@ pub(super) struct ScenarioTable {
     pub(super) cycle: Number,
     pub(super) search: Option<SearchTable>,
     pub(super) brake: BrakeTable,
+    pub(super) servo: ServoTable,
+    pub(super) motors: MotorsTable,
     pub(super) experiments: Option<Vec<ExperimentTable>>,
     pub(super) campaign: CampaignTable,
     pub(super) assess: AssessTable,
@@ -121,6 +126,14 @@ impl ScenarioTable {
             brake: fields
                 .value(&format::BRAKE)
                 .and_then(|value| value.table("[brake]", read_brake))
+                .unwrap_or_default(),
+            servo: fields
+                .value(&format::SERVO)
+                .and_then(|value| value.table("[servo]", read_servo))
+                .unwrap_or_default(),
+            motors: fields
+                .value(&format::MOTORS)
+                .and_then(|value| value.table("[motors]", read_motors))
                 .unwrap_or_default(),
             experiments: fields
                 .value(&format::EXPERIMENTS)

@@ -2,6 +2,7 @@
 
 mod assess;
 mod campaign;
+mod drives;
 mod experiment;
 mod failure;
 mod motion;
@@ -62,6 +63,8 @@ impl ScenarioTable {
             duration,
             profile: self.brake.profile.unwrap_or_default(),
         });
+        let servo = reader.servo(&self.servo);
+        let motors = reader.motors(&self.motors);
         let campaign = reader.campaign(&self.campaign);
         let assess = reader.assess(&self.assess);
         let failure = failure?;
@@ -75,6 +78,8 @@ impl ScenarioTable {
             cycle: cycle?,
             search: search?,
             brake: brake?,
+            servo: servo?,
+            motors: motors?,
             experiments: experiments?,
             campaign: campaign?,
             assess: assess?,
