@@ -6,6 +6,7 @@
 
 mod campaign;
 mod case;
+mod mechanics;
 mod rollout;
 mod runner;
 mod truth;
@@ -17,8 +18,11 @@ use crate::search::SearchError;
 use crate::simulation::{Ending, SimulationError};
 use ulna::Arm;
 
-pub use campaign::{Campaign, CampaignCase, CampaignResult};
+pub use campaign::{Campaign, CampaignCase, CampaignOutcome, CampaignResult, after_only};
 pub use case::{Case, Search, SearchMethod, Study, Tradeoff};
+pub use mechanics::{
+    ArmPose, JointFrame, LockMechanics, Redundancy, StructureLoad, lock_mechanics,
+};
 pub use rollout::{Rollout, Series};
 pub use runner::ExperimentRunner;
 pub use truth::{BrakeImpulse, Truth, TruthRun};
