@@ -40,7 +40,18 @@ pub(super) fn panel<'a, DB: DrawingBackend>(
     axes: &Axes<'_>,
 ) -> Built<'a, DB, RangedCoordf64, RangedCoordf64> {
     let (x, y) = (axes.x.1.clone(), axes.y.1.clone());
-    with_coordinates(area, pen, axes, (x, 7), (y, 6))
+    with_coordinates(area, pen, axes, (x, 7), (y, 6), Snap::Linear)
+}
+
+/// An empty panel with a tick at each whole number of its horizontal axis.
+pub(super) fn count_panel<'a, DB: DrawingBackend>(
+    area: &'a Area<DB>,
+    pen: Pen,
+    axes: &Axes<'_>,
+) -> Built<'a, DB, RangedCoordf64, RangedCoordf64> {
+    let (x, y) = (axes.x.1.clone(), axes.y.1.clone());
+    let ticks = (axes.x.1.end - axes.x.1.start) as usize;
+    with_coordinates(area, pen, axes, (x, ticks), (y, 6), Snap::Linear)
 }
 
 /// An empty panel with a tick at each whole number of its horizontal axis and a logarithmic vertical one.
@@ -51,7 +62,7 @@ pub(super) fn bar_panel<'a, DB: DrawingBackend>(
 ) -> Built<'a, DB, RangedCoordf64, LogCoord<f64>> {
     let (x, y) = (axes.x.1.clone(), axes.y.1.clone().log_scale());
     let ticks = (axes.x.1.end - axes.x.1.start) as usize;
-    with_coordinates(area, pen, axes, (x, ticks), (y, 6))
+    with_coordinates(area, pen, axes, (x, ticks), (y, 6), Snap::Log)
 }
 
 /// An empty panel with a tick at each whole number of its vertical axis.
@@ -62,7 +73,7 @@ pub(super) fn grid_panel<'a, DB: DrawingBackend>(
 ) -> Built<'a, DB, RangedCoordf64, RangedCoordf64> {
     let (x, y) = (axes.x.1.clone(), axes.y.1.clone());
     let ticks = (axes.y.1.end - axes.y.1.start) as usize + 1;
-    with_coordinates(area, pen, axes, (x, 7), (y, ticks))
+    with_coordinates(area, pen, axes, (x, 7), (y, ticks), Snap::Linear)
 }
 
 /// An empty panel with two logarithmic axes.
@@ -72,7 +83,27 @@ pub(super) fn double_log_panel<'a, DB: DrawingBackend>(
     axes: &Axes<'_>,
 ) -> Built<'a, DB, LogCoord<f64>, LogCoord<f64>> {
     let (x, y) = (axes.x.1.clone().log_scale(), axes.y.1.clone().log_scale());
-    with_coordinates(area, pen, axes, (x, 8), (y, 8))
+    with_coordinates(area, pen, axes, (x, 8), (y, 8), Snap::Log)
+}
+
+/// What ticks that are almost 0 are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Snap {
+    /// 0, but for the rounding of a sum of steps.
+    Linear,
+    /// Small numbers.
+    Log,
+}
+
+impl Snap {
+    /// `value`, a tick of an axis of this `range`.
+    fn tick(self, value: f64, range: &Range<f64>) -> String {
+        let rounding = 1e-9 * (range.end - range.start);
+        if self == Self::Linear && value.abs() < rounding {
+            return tick(0.0);
+        }
+        tick(value)
+    }
 }
 
 /// An empty panel with these coordinates, and about so many ticks on each axis.
@@ -82,6 +113,7 @@ fn with_coordinates<'a, DB: DrawingBackend, X, Y>(
     axes: &Axes<'_>,
     (x, x_ticks): (X, usize),
     (y, y_ticks): (Y, usize),
+    snap: Snap,
 ) -> Built<'a, DB, X::CoordDescType, Y::CoordDescType>
 where
     X: AsRangedCoord<Value = f64>,
@@ -114,8 +146,8 @@ where
         .axis_style(BLACK.stroke_width(pen.px(1)))
         .x_labels(x_ticks)
         .y_labels(y_ticks)
-        .x_label_formatter(&|x| tick(*x))
-        .y_label_formatter(&|y| tick(*y))
+        .x_label_formatter(&|x| snap.tick(*x, &axes.x.1))
+        .y_label_formatter(&|y| snap.tick(*y, &axes.y.1))
         .x_desc(axes.x.0)
         .y_desc(axes.y.0)
         .label_style(pen.small())

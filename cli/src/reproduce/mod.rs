@@ -1,9 +1,13 @@
 //! `ulna reproduce`: the experiments of a scenario.
 
+mod coefficients;
 mod csv;
 mod drawings;
+mod force;
 mod page;
+mod references;
 mod results;
+mod structure;
 mod table;
 mod words;
 
@@ -12,13 +16,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use rayon::prelude::*;
+use ulna::SerialChain;
 use ulna_study::Scenario;
-use ulna_study::experiment::{AnyArm, ExperimentError, ExperimentRunner, Study, Truth};
+use ulna_study::experiment::{
+    AnyArm, ExperimentError, ExperimentRunner, LockMechanics, Study, Truth, lock_mechanics,
+};
 use ulna_study::scenario::Experiment;
 
-use crate::arms::{ForArm, GENERATED, with_arm};
+use crate::arms::{ForArm, GENERATED, with_arm, with_chain_of};
+use crate::joints::ForChain;
 use crate::output::{self, Files};
 use crate::{Verdict, console};
+use force::Asked;
 
 /// The scenario that is repeated when none is named; compiled in, so that the program needs no repository.
 const PAPER_LIKE: &str = include_str!("../../scenarios/paper_like.toml");
@@ -59,7 +68,8 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         )?,
     };
     output::check_folder(&arguments.output)?;
-    let findings = with_arm(scenario.arm(), Findings::of(&scenario))??;
+    let locks = with_chain_of(scenario.arm(), Locks(&scenario))??;
+    let findings = with_arm(scenario.arm(), Findings::of(&scenario, locks))??;
     table::write(&scenario, &findings, out)?;
     out.flush()?;
     let mut files = Files::default();
@@ -81,6 +91,8 @@ struct Findings {
     studies: Vec<Study>,
     /// The first experiment simulated, at every failure time; `Err` if that cannot be.
     truths: Result<Vec<Truth>, ExperimentError>,
+    /// The arm as a mechanism, at every failure time.
+    locks: Vec<LockMechanics>,
 }
 
 impl Findings {
@@ -92,34 +104,60 @@ impl Findings {
             .collect()
     }
 
+    /// What the tool is to exert in a study of `experiment`.
+    fn asked(&self, experiment: &Experiment, study: &Study) -> Asked {
+        Asked::of(experiment, study, &self.locks)
+    }
+
     /// The work that leads to the findings.
-    fn of(scenario: &Scenario) -> Work<'_> {
-        Work(scenario)
+    fn of(scenario: &Scenario, locks: Vec<LockMechanics>) -> Work<'_> {
+        Work { scenario, locks }
     }
 }
 
-struct Work<'s>(&'s Scenario);
+struct Locks<'s>(&'s Scenario);
+
+impl ForChain for Locks<'_> {
+    type Output = Result<Vec<LockMechanics>, ExperimentError>;
+
+    fn run<const N: usize>(self, chain: &SerialChain<N>) -> Self::Output {
+        lock_mechanics(chain, self.0)
+    }
+}
+
+struct Work<'s> {
+    scenario: &'s Scenario,
+    locks: Vec<LockMechanics>,
+}
 
 impl ForArm for Work<'_> {
     type Output = Result<Findings, ExperimentError>;
 
     fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
-        let runner = ExperimentRunner::new(arm, self.0)?;
+        let runner = ExperimentRunner::new(arm, self.scenario)?;
         let study = |experiment: &Experiment, time| runner.study(experiment, time);
         let truth = |experiment: &Experiment, time| runner.truth(experiment, time);
-        explore(self.0, &study, &truth)
+        let (studies, truths) = explore(self.scenario, &study, &truth)?;
+        Ok(Findings {
+            studies,
+            truths,
+            locks: self.locks,
+        })
     }
 }
 
 /// One experiment with the failure at one time, s.
 type Attempt<'l, T> = dyn Fn(&Experiment, f64) -> Result<T, ExperimentError> + Sync + 'l;
 
+/// Every experiment at every failure time, and the simulations.
+type Explored = (Vec<Study>, Result<Vec<Truth>, ExperimentError>);
+
 /// Everything that is asked of a runner, side by side. Apart from it, so that this is not compiled for each number of joints.
 fn explore(
     scenario: &Scenario,
     study: &Attempt<'_, Study>,
     truth: &Attempt<'_, Truth>,
-) -> Result<Findings, ExperimentError> {
+) -> Result<Explored, ExperimentError> {
     let (experiments, failure_times) = (scenario.experiments(), scenario.failure_times());
     let pairs = experiments.iter().flat_map(|experiment| {
         let times = failure_times.iter();
@@ -133,8 +171,5 @@ fn explore(
     let truths = failure_times
         .par_iter()
         .map(|time| truth(&experiments[0], *time));
-    Ok(Findings {
-        studies: studies.collect::<Result<_, _>>()?,
-        truths: truths.collect(),
-    })
+    Ok((studies.collect::<Result<_, _>>()?, truths.collect()))
 }

@@ -8,7 +8,7 @@ use crate::scenario::{PlannedMotion, Scenario};
 use ulna::control::failure::{Failure, LockedJoints, impact_torque};
 use ulna::control::null_space::NullSpace;
 use ulna::generic::JointLoad;
-use ulna::{Arm, JointKind, SerialChain, Trajectory};
+use ulna::{Arm, JointKind, SerialChain, TaskRow, Trajectory};
 
 /// An arm around the lock at one failure time.
 #[derive(Clone, Debug, PartialEq)]
@@ -207,7 +207,7 @@ fn at_lock<const N: usize>(
     LockMechanics {
         failure_time: failure.time,
         failed_joints: failure.joints.iter().collect(),
-        task: chain.task().iter().map(|row| row.index()).collect(),
+        task: chain.task().iter().map(TaskRow::index).collect(),
         before: redundancy(LockedJoints::NONE),
         after: redundancy(failure.joints),
         loads: loads

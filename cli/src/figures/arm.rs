@@ -1,0 +1,253 @@
+//! The arm as a stick figure with its joint frames: the paper's Figures 1 and 3.
+
+use plotters::element::{Circle, Cross, Text};
+use plotters::prelude::DrawingBackend;
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{Color, RGBColor};
+use ulna_study::experiment::{ArmPose, LockMechanics};
+
+use super::chart::{Key, legend, tick};
+use super::sketch::{Point, arrow, dashes, line};
+use super::stroke::Stroke;
+use super::style::{BLACK, BLUE, GREEN, GREY, Marker, Pen, SKY, VERMILION, WHITE, anchored};
+use super::{Area, Drawn, Figure};
+
+/// The arm around a lock: where it starts, where the lock falls, where it ends.
+pub(crate) struct Arm<'l> {
+    pub(crate) lock: &'l LockMechanics,
+    /// With the failed joints at rest from the lock on; otherwise as planned.
+    pub(crate) locked: bool,
+}
+
+const START: RGBColor = GREY;
+const FAILURE: RGBColor = BLUE;
+const GOAL: RGBColor = GREEN;
+const LOCKED: RGBColor = VERMILION;
+
+impl Figure for Arm<'_> {
+    fn size(&self) -> (u32, u32) {
+        (1000, 640)
+    }
+
+    fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
+        let (head, body) = area.split_vertically(pen.px(58));
+        let lock = self.lock;
+        let (goal, path) = if self.locked {
+            (&lock.locked_goal, &lock.locked_path)
+        } else {
+            (&lock.goal, &lock.path)
+        };
+        let solid = |colour| Key::Stroke(Stroke::solid(colour));
+        let mut entries = vec![(
+            solid(FAILURE),
+            format!("at {} s, with joint frames: z", lock.failure_time),
+        )];
+        entries.push((Key::Stroke(Stroke::dashed(SKY)), "x".to_owned()));
+        if self.locked {
+            let end = "end, the failed joints at rest since the lock";
+            entries.push((solid(GOAL), end.to_owned()));
+            let planned = "end if none had locked";
+            entries.push((Key::Stroke(Stroke::dashed(GREY)), planned.to_owned()));
+            entries.push((
+                Key::Marker(Marker::Square, LOCKED),
+                "joint that locks".to_owned(),
+            ));
+        } else {
+            entries.push((solid(START), "start".to_owned()));
+            entries.push((solid(GOAL), "goal".to_owned()));
+        }
+        entries.push((
+            Key::Stroke(Stroke::dotted(BLACK)),
+            "way of the tool".to_owned(),
+        ));
+        legend(&head, pen, &entries)?;
+
+        let mut points: Vec<[f64; 3]> = path.clone();
+        let others = if self.locked { &lock.goal } else { &lock.start };
+        for pose in [&lock.failure, goal, others] {
+            points.extend(corners(pose));
+        }
+        let view = View::of(&points, body.dim_in_pixel(), pen);
+        view.axes(&body, pen)?;
+        let way: Vec<_> = path.iter().map(|point| view.at(point)).collect();
+        dashes(&body, pen, &way, (BLACK, 1), 2)?;
+        if self.locked {
+            let sticks: Vec<_> = corners(&lock.goal).iter().map(|p| view.at(p)).collect();
+            dashes(&body, pen, &sticks, (GREY, 2), 5)?;
+        } else {
+            view.sticks(&body, pen, &lock.start, START, 3)?;
+        }
+        view.sticks(&body, pen, goal, GOAL, 3)?;
+        view.sticks(&body, pen, &lock.failure, FAILURE, 4)?;
+        view.frames(&body, pen, &lock.failure)?;
+        view.joints(&body, pen, &lock.failure, |joint| {
+            self.locked && lock.failed_joints.contains(&joint)
+        })?;
+        if self.locked {
+            for joint in &lock.failed_joints {
+                let at = view.at(&goal.joints[*joint].origin);
+                Marker::Square.draw(&body, pen, at, LOCKED)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The base, the joints and the tool.
+fn corners(pose: &ArmPose) -> Vec<[f64; 3]> {
+    let joints = pose.joints.iter().map(|joint| joint.origin);
+    [pose.base]
+        .into_iter()
+        .chain(joints)
+        .chain([pose.tool])
+        .collect()
+}
+
+/// From the world to pixels: an isometric view from x, y, z alike, z up.
+struct View {
+    /// Pixels per metre.
+    scale: f64,
+    middle: (f64, f64),
+    centre: Point,
+    /// Bottom left.
+    corner: Point,
+    /// m, of the drawn scale.
+    unit: f64,
+}
+
+/// Right and up of a point in an isometric view.
+fn isometric([x, y, z]: &[f64; 3]) -> (f64, f64) {
+    let cos = 3.0_f64.sqrt() / 2.0;
+    ((y - x) * cos, z - 0.5 * (x + y))
+}
+
+impl View {
+    fn of(points: &[[f64; 3]], (width, height): (u32, u32), pen: Pen) -> Self {
+        let mut least = (f64::INFINITY, f64::INFINITY);
+        let mut most = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        for (u, v) in points.iter().map(isometric) {
+            least = (least.0.min(u), least.1.min(v));
+            most = (most.0.max(u), most.1.max(v));
+        }
+        let (wide, high) = ((most.0 - least.0).max(1e-6), (most.1 - least.1).max(1e-6));
+        let (width, height) = (width.cast_signed(), height.cast_signed());
+        // Room for frames and numbers around, and for the world's axes at the left.
+        let (left, rim) = (pen.at(150), pen.at(60));
+        let room = (f64::from(width - left - rim), f64::from(height - 2 * rim));
+        let scale = (room.0 / wide).min(room.1 / high);
+        // The largest of 1, 2, 5 times a power of ten that is at most 60 px long.
+        let most_unit = f64::from(pen.at(60)) / scale;
+        let power = 10_f64.powf(most_unit.log10().floor());
+        let unit = [5.0, 2.0, 1.0].into_iter().find(|n| n * power <= most_unit);
+        Self {
+            scale,
+            middle: (0.5 * (least.0 + most.0), 0.5 * (least.1 + most.1)),
+            centre: ((left + width - rim) / 2, height / 2),
+            corner: (pen.at(70), height - pen.at(70)),
+            unit: unit.unwrap_or(1.0) * power,
+        }
+    }
+
+    fn at(&self, point: &[f64; 3]) -> Point {
+        let (u, v) = isometric(point);
+        let right = (u - self.middle.0) * self.scale;
+        let down = (self.middle.1 - v) * self.scale;
+        (
+            self.centre.0 + right.round() as i32,
+            self.centre.1 + down.round() as i32,
+        )
+    }
+
+    /// The world's axes, each as long as it says.
+    fn axes<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
+        let style = anchored(&pen.small(), HPos::Center, VPos::Center);
+        for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
+            let mut axis = [0.0; 3];
+            axis[i] = self.unit;
+            let (u, v) = isometric(&axis);
+            let end = |share: f64| {
+                let (right, down) = (u * self.scale * share, -v * self.scale * share);
+                (self.corner.0 + right as i32, self.corner.1 + down as i32)
+            };
+            arrow(area, pen, &[self.corner, end(1.0)], (BLACK, 1))?;
+            area.draw(&Text::new(name, end(1.35), style.clone()))?;
+        }
+        let words = format!("world axes, {} m each", tick(self.unit));
+        let at = (pen.at(12), self.corner.1 + pen.at(56));
+        let style = anchored(&pen.small(), HPos::Left, VPos::Center);
+        area.draw(&Text::new(words, at, style))
+    }
+
+    fn sticks<DB: DrawingBackend>(
+        &self,
+        area: &Area<DB>,
+        pen: Pen,
+        pose: &ArmPose,
+        colour: RGBColor,
+        width: u32,
+    ) -> Drawn<DB> {
+        let points: Vec<_> = corners(pose).iter().map(|point| self.at(point)).collect();
+        line(area, pen, &points, (colour, width))?;
+        for point in &points {
+            area.draw(&Circle::new(*point, pen.px(3), colour.filled()))?;
+        }
+        if let Some(tool) = points.last() {
+            area.draw(&Cross::new(*tool, pen.px(6), pen.line(colour, 2)))?;
+        }
+        Ok(())
+    }
+
+    /// z and x of each joint's frame.
+    fn frames<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen, pose: &ArmPose) -> Drawn<DB> {
+        let length = f64::from(pen.at(30)) / self.scale;
+        for joint in &pose.joints {
+            let from = self.at(&joint.origin);
+            for (axis, colour) in [(0, SKY), (2, FAILURE)] {
+                let mut end = joint.origin;
+                for (end, along) in end.iter_mut().zip(joint.axes[axis]) {
+                    *end += length * along;
+                }
+                arrow(area, pen, &[from, self.at(&end)], (colour, 1))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The joints' numbers; joints in one place share one.
+    fn joints<DB: DrawingBackend>(
+        &self,
+        area: &Area<DB>,
+        pen: Pen,
+        pose: &ArmPose,
+        locks: impl Fn(usize) -> bool,
+    ) -> Drawn<DB> {
+        let mut places: Vec<(Point, Vec<usize>)> = Vec::new();
+        for (joint, frame) in pose.joints.iter().enumerate() {
+            let at = self.at(&frame.origin);
+            let near = |place: &&mut (Point, Vec<usize>)| {
+                let ((x, y), _) = **place;
+                (x - at.0).abs().max((y - at.1).abs()) < pen.at(14)
+            };
+            match places.iter_mut().find(near) {
+                Some((_, joints)) => joints.push(joint),
+                None => places.push((at, vec![joint])),
+            }
+            if locks(joint) {
+                Marker::Square.draw(area, pen, at, LOCKED)?;
+            }
+        }
+        let style = anchored(&pen.title(), HPos::Right, VPos::Bottom);
+        for ((x, y), joints) in places {
+            let names: Vec<_> = joints.iter().map(|joint| (joint + 1).to_string()).collect();
+            let at = (x - pen.at(7), y - pen.at(4));
+            // A white rim keeps it legible on lines.
+            for (dx, dy) in [(-1, 0), (1, 0), (0, -1), (0, 1)] {
+                let rim = style.color(&WHITE);
+                let at = (at.0 + pen.at(dx), at.1 + pen.at(dy));
+                area.draw(&Text::new(names.join(", "), at, rim))?;
+            }
+            area.draw(&Text::new(names.join(", "), at, style.clone()))?;
+        }
+        Ok(())
+    }
+}
