@@ -9,7 +9,9 @@ use ulna_study::experiment::{ArmPose, LockMechanics};
 use super::chart::{Key, legend, tick};
 use super::sketch::{Point, arrow, dashes, line};
 use super::stroke::Stroke;
-use super::style::{BLACK, BLUE, GREEN, GREY, Marker, Pen, SKY, VERMILION, WHITE, anchored};
+use super::style::{
+    BLACK, BLUE, GREEN, GREY, Marker, ORANGE, PURPLE, Pen, VERMILION, WHITE, anchored,
+};
 use super::{Area, Drawn, Figure};
 
 /// The arm around a lock: where it starts, where the lock falls, where it ends.
@@ -20,9 +22,16 @@ pub(crate) struct Arm<'l> {
 }
 
 const START: RGBColor = GREY;
-const FAILURE: RGBColor = BLUE;
+const FAILURE: RGBColor = BLACK;
 const GOAL: RGBColor = GREEN;
 const LOCKED: RGBColor = VERMILION;
+
+/// Of a joint's frame.
+const AXES: [(RGBColor, &str); 3] = [
+    (ORANGE, "joint frame: x"),
+    (PURPLE, "y"),
+    (BLUE, "z, the axis"),
+];
 
 impl Figure for Arm<'_> {
     fn size(&self) -> (u32, u32) {
@@ -38,15 +47,11 @@ impl Figure for Arm<'_> {
             (&lock.goal, &lock.path)
         };
         let solid = |colour| Key::Stroke(Stroke::solid(colour));
-        let mut entries = vec![(
-            solid(FAILURE),
-            format!("at {} s, with joint frames: z", lock.failure_time),
-        )];
-        entries.push((Key::Stroke(Stroke::dashed(SKY)), "x".to_owned()));
+        let mut entries = vec![(solid(FAILURE), format!("at {} s", lock.failure_time))];
         if self.locked {
-            let end = "end, the failed joints at rest since the lock";
+            let end = "end, failed joints at rest";
             entries.push((solid(GOAL), end.to_owned()));
-            let planned = "end if none had locked";
+            let planned = "end if none locks";
             entries.push((Key::Stroke(Stroke::dashed(GREY)), planned.to_owned()));
             entries.push((
                 Key::Marker(Marker::Square, LOCKED),
@@ -56,10 +61,9 @@ impl Figure for Arm<'_> {
             entries.push((solid(START), "start".to_owned()));
             entries.push((solid(GOAL), "goal".to_owned()));
         }
-        entries.push((
-            Key::Stroke(Stroke::dotted(BLACK)),
-            "way of the tool".to_owned(),
-        ));
+        let path_key = Key::Stroke(Stroke::dotted(BLACK));
+        entries.push((path_key, "path of the tool".to_owned()));
+        entries.extend(AXES.map(|(colour, label)| (solid(colour), label.to_owned())));
         legend(&head, pen, &entries)?;
 
         let mut points: Vec<[f64; 3]> = path.clone();
@@ -197,14 +201,14 @@ impl View {
         Ok(())
     }
 
-    /// z and x of each joint's frame.
+    /// Each joint's frame.
     fn frames<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen, pose: &ArmPose) -> Drawn<DB> {
         let length = f64::from(pen.at(30)) / self.scale;
         for joint in &pose.joints {
             let from = self.at(&joint.origin);
-            for (axis, colour) in [(0, SKY), (2, FAILURE)] {
+            for (axis, (colour, _)) in joint.axes.iter().zip(AXES) {
                 let mut end = joint.origin;
-                for (end, along) in end.iter_mut().zip(joint.axes[axis]) {
+                for (end, along) in end.iter_mut().zip(axis) {
                     *end += length * along;
                 }
                 arrow(area, pen, &[from, self.at(&end)], (colour, 1))?;

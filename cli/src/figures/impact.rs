@@ -143,9 +143,10 @@ impl Scale {
         let zero = ROUNDING * largest;
         let seen = values.iter().copied().filter(|value| *value > zero);
         let least = seen.fold(largest, f64::min);
-        // The shortest bar has some height too.
+        // The shortest bar has some height too, and the axis two decades.
+        let floor = (0.7 * least).min(0.03 * largest);
         Self {
-            floor: 10_f64.powf((0.7 * least).log10().floor()),
+            floor: 10_f64.powf(floor.log10().floor()),
             top: 3.0 * largest,
             zero,
         }
@@ -169,7 +170,7 @@ fn bars<DB: DrawingBackend>(
         rounded(eq16.force_error),
         rounded(eq16.rollout.max_force_error),
     );
-    let label = format!("impact in {unit}");
+    let label = format!("impact in {}", unit.replace("N m", "N\u{b7}m"));
     let axes = Axes {
         title: &title,
         x: ("joint", 0.5..joints as f64 + 0.5),

@@ -102,7 +102,7 @@ impl Figure for SearchFlow {
             pen,
             Shape::Question,
             ORANGE,
-            &["moved any", "coefficient?"],
+            &["has any", "coefficient moved?"],
         )?;
         end.draw(
             area,

@@ -7,7 +7,7 @@ use plotters::style::{Color, RGBColor};
 use ulna::JointKind;
 use ulna_study::experiment::{LockMechanics, StructureLoad};
 
-use super::chart::{Axes, Key, count_panel, legend, tick};
+use super::chart::{Axes, Key, count_panel, legend};
 use super::law::WITHOUT;
 use super::style::{Pen, VERMILION, anchored};
 use super::{Area, Drawn, Figure};
@@ -93,7 +93,7 @@ fn bars<DB: DrawingBackend>(
             let left = joint as f64 + 0.63 + 0.38 * i as f64;
             let bar = [(left, 0.0), (left + 0.36, value)];
             panel.draw_series([Rectangle::new(bar, colour.filled())])?;
-            let text = Text::new(figures(value, largest), (left + 0.18, value), style.clone());
+            let text = Text::new(rounded(value, largest), (left + 0.18, value), style.clone());
             panel.draw_series([text])?;
         }
         if lock.failed_joints.contains(&joint) {
@@ -105,11 +105,15 @@ fn bars<DB: DrawingBackend>(
     Ok(())
 }
 
-/// Two or three digits; rounding is 0.
-fn figures(value: f64, largest: f64) -> String {
+/// As exact as the largest is with three digits; rounding is 0.
+fn rounded(value: f64, largest: f64) -> String {
     if value <= 1e-9 * largest {
         return "0".to_owned();
     }
-    let decimals = (1.0 - value.log10().floor()).clamp(0.0, 6.0) as usize;
-    tick(format!("{value:.decimals$}").parse().unwrap_or(value))
+    let decimals = (2.0 - largest.log10().floor()).clamp(0.0, 9.0) as usize;
+    let least = 10_f64.powi(-(decimals as i32));
+    if value < 0.5 * least {
+        return format!("<{least}");
+    }
+    format!("{value:.decimals$}")
 }

@@ -1,6 +1,7 @@
 //! Which of a scenario's references stand beside which results, and what is to be said of the others.
 
 use ulna_study::Scenario;
+use ulna_study::experiment::Study;
 use ulna_study::scenario::{Experiment, Reference};
 
 use super::words::{joints_named, locks};
@@ -21,6 +22,18 @@ fn is_for_lock(scenario: &Scenario, reference: &Reference) -> bool {
     there.is_none_or(|there| there == scenario.failed_joints())
 }
 
+/// Whether figures of the paper itself stand beside these results.
+pub(super) fn is_beside_paper(
+    scenario: &Scenario,
+    experiment: &Experiment,
+    studies: &[&Study],
+) -> bool {
+    studies.iter().any(|study| {
+        let reference = reference_at(scenario, experiment, study.failure_time);
+        reference.is_some_and(|reference| reference.source().to_lowercase().contains("paper"))
+    })
+}
+
 /// A sentence for each reference that is left out, and for each that does not say which joint locks there.
 pub(super) fn notes(scenario: &Scenario, experiment: &Experiment) -> Vec<String> {
     let note = |reference: &Reference| {
@@ -28,7 +41,7 @@ pub(super) fn notes(scenario: &Scenario, experiment: &Experiment) -> Vec<String>
         let here = locks(scenario.failed_joints());
         if !scenario.failure_times().contains(&time) {
             return Some(format!(
-                "The reference \"{source}\" for {time} s is left out: no joint locks then."
+                "The reference \"{source}\" for {time} s is left out: that is no failure time of this scenario."
             ));
         }
         if let Some(there) = reference.failed_joints()

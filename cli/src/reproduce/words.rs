@@ -89,10 +89,14 @@ pub(super) fn seconds(time: f64) -> String {
     }
 }
 
-/// A coefficient with four digits and its own power of ten.
+/// A coefficient with four digits; very small and very large ones by their own power of ten.
 pub(super) fn coefficient(value: f64) -> String {
-    if value == 0.0 {
+    let size = value.abs();
+    if size == 0.0 {
         "0".to_owned()
+    } else if (1e-2..1e4).contains(&size) {
+        let decimals = (3.0 - size.log10().floor()).clamp(0.0, 5.0) as usize;
+        format!("{value:.decimals$}")
     } else {
         format!("{value:.3e}")
     }
@@ -101,11 +105,15 @@ pub(super) fn coefficient(value: f64) -> String {
 /// The same without zeros at the end: for numbers that have few digits from the start.
 pub(super) fn short(value: f64) -> String {
     let text = coefficient(value);
+    let trimmed = |digits: &str| match digits.split_once('.') {
+        Some(_) => digits
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+            .to_owned(),
+        None => digits.to_owned(),
+    };
     match text.split_once('e') {
-        Some((digits, power)) => {
-            let digits = digits.trim_end_matches('0').trim_end_matches('.');
-            format!("{digits}e{power}")
-        }
-        None => text,
+        Some((digits, power)) => format!("{}e{power}", trimmed(digits)),
+        None => trimmed(&text),
     }
 }

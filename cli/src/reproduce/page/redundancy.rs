@@ -90,17 +90,19 @@ pub(super) fn write(
     if !short.is_empty() {
         writeln!(
             page,
-            "With {which} locked the task has {} independent rows of {} left (lock at {} s): the arm cannot follow its path any more, \
+            "With {which} locked the task has {} of {} independent rows left (lock at {} s): the arm cannot follow its path any more, \
              and along the lost direction a force error counts as 0 although no torque decides the force there.\n",
             ranks(&short, |lock| &lock.after),
             ranks(&short, |lock| &lock.before),
             listed(&short, |lock| lock.failure_time.to_string()),
         )?;
     }
+    // Where a row is lost it is said above.
+    let lost = |lock: &LockMechanics| lock.after.rank < lock.before.rank;
     let near = |redundancy: &Redundancy| redundancy.conditioning < NEAR_SINGULAR;
     let near: Vec<_> = locks
         .iter()
-        .filter(|lock| near(&lock.before) || near(&lock.after))
+        .filter(|lock| near(&lock.before) || (near(&lock.after) && !lost(lock)))
         .collect();
     if !near.is_empty() {
         writeln!(
