@@ -71,7 +71,8 @@ impl Figure for Arm<'_> {
         for pose in [&lock.failure, goal, others] {
             points.extend(corners(pose));
         }
-        let view = View::of(&points, body.dim_in_pixel(), pen);
+        let links = [&lock.failure, goal, others].map(corners);
+        let view = View::of(&points, &links, body.dim_in_pixel(), pen);
         view.axes(&body, pen)?;
         let way: Vec<_> = path.iter().map(|point| view.at(point)).collect();
         dashes(&body, pen, &way, (BLACK, 1), 2)?;
@@ -107,8 +108,10 @@ fn corners(pose: &ArmPose) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// From the world to pixels: an isometric view from x, y, z alike, z up.
+/// From the world to pixels: an isometric view, z up.
 struct View {
+    /// Quarter turns about z before it is looked at.
+    turns: u32,
     /// Pixels per metre.
     scale: f64,
     middle: (f64, f64),
@@ -119,17 +122,42 @@ struct View {
     unit: f64,
 }
 
-/// Right and up of a point in an isometric view.
-fn isometric([x, y, z]: &[f64; 3]) -> (f64, f64) {
+/// Right and up of a point in an isometric view, after some quarter turns about z.
+fn isometric([x, y, z]: &[f64; 3], turns: u32) -> (f64, f64) {
+    let (x, y) = match turns % 4 {
+        0 => (*x, *y),
+        1 => (-y, *x),
+        2 => (-x, -y),
+        _ => (*y, -x),
+    };
     let cos = 3.0_f64.sqrt() / 2.0;
     ((y - x) * cos, z - 0.5 * (x + y))
 }
 
+/// How long links are in a view, together.
+fn seen(links: &[Vec<[f64; 3]>], turns: u32) -> f64 {
+    let pieces = links.iter().flat_map(|points| points.windows(2));
+    pieces
+        .map(|piece| {
+            let [a, b] = [0, 1].map(|end| isometric(&piece[end], turns));
+            (a.0 - b.0).hypot(a.1 - b.1)
+        })
+        .sum()
+}
+
 impl View {
-    fn of(points: &[[f64; 3]], (width, height): (u32, u32), pen: Pen) -> Self {
+    /// Of the four views the one that shortens the links least.
+    fn of(
+        points: &[[f64; 3]],
+        links: &[Vec<[f64; 3]>],
+        (width, height): (u32, u32),
+        pen: Pen,
+    ) -> Self {
+        let by_length = |a: &u32, b: &u32| seen(links, *a).total_cmp(&seen(links, *b));
+        let turns = (0..4).rev().max_by(by_length).unwrap_or(0);
         let mut least = (f64::INFINITY, f64::INFINITY);
         let mut most = (f64::NEG_INFINITY, f64::NEG_INFINITY);
-        for (u, v) in points.iter().map(isometric) {
+        for (u, v) in points.iter().map(|point| isometric(point, turns)) {
             least = (least.0.min(u), least.1.min(v));
             most = (most.0.max(u), most.1.max(v));
         }
@@ -144,6 +172,7 @@ impl View {
         let power = 10_f64.powf(most_unit.log10().floor());
         let unit = [5.0, 2.0, 1.0].into_iter().find(|n| n * power <= most_unit);
         Self {
+            turns,
             scale,
             middle: (0.5 * (least.0 + most.0), 0.5 * (least.1 + most.1)),
             centre: ((left + width - rim) / 2, height / 2),
@@ -153,7 +182,7 @@ impl View {
     }
 
     fn at(&self, point: &[f64; 3]) -> Point {
-        let (u, v) = isometric(point);
+        let (u, v) = isometric(point, self.turns);
         let right = (u - self.middle.0) * self.scale;
         let down = (self.middle.1 - v) * self.scale;
         (
@@ -168,7 +197,7 @@ impl View {
         for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
             let mut axis = [0.0; 3];
             axis[i] = self.unit;
-            let (u, v) = isometric(&axis);
+            let (u, v) = isometric(&axis, self.turns);
             let end = |share: f64| {
                 let (right, down) = (u * self.scale * share, -v * self.scale * share);
                 (self.corner.0 + right as i32, self.corner.1 + down as i32)
@@ -230,7 +259,7 @@ impl View {
             let at = self.at(&frame.origin);
             let near = |place: &&mut (Point, Vec<usize>)| {
                 let ((x, y), _) = **place;
-                (x - at.0).abs().max((y - at.1).abs()) < pen.at(14)
+                (x - at.0).abs().max((y - at.1).abs()) < pen.at(8)
             };
             match places.iter_mut().find(near) {
                 Some((_, joints)) => joints.push(joint),

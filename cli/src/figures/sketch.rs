@@ -11,14 +11,17 @@ use super::{Area, Drawn};
 /// A point, x to the right and y down.
 pub(super) type Point = (i32, i32);
 
-/// A line through some points.
+/// A line through some points, piece by piece: where a whole one turned back, its corner would be drawn as a spike.
 pub(super) fn line<DB: DrawingBackend>(
     area: &Area<DB>,
     pen: Pen,
     points: &[Point],
     (colour, width): (RGBColor, u32),
 ) -> Drawn<DB> {
-    area.draw(&PathElement::new(points.to_vec(), pen.line(colour, width)))
+    for piece in points.windows(2) {
+        area.draw(&PathElement::new(piece.to_vec(), pen.line(colour, width)))?;
+    }
+    Ok(())
 }
 
 /// A line of dashes, css pixels long and apart.

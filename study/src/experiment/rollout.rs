@@ -40,7 +40,7 @@ impl Rollout {
     /// About so many cycles are kept in the series.
     const SERIES: f64 = 400.0;
 
-    /// Flies `motion` with `failure` in it, one call of `controller` every `cycle` s, the tool exerting `force`.
+    /// Executes `motion` with `failure` in it, one call of `controller` every `cycle` s, the tool exerting `force`.
     pub fn execute<const N: usize>(
         controller: &Controller<'_, AnyArm<N>, N>,
         motion: &PlannedMotion<N>,
