@@ -7,7 +7,9 @@ use ulna::control::failure::{Failure, LockedJoints, impact_torque_of};
 use ulna::{Arm, JointKind, SerialChain, Trajectory};
 use ulna_generated::{Oblique6, Planar2r, Ssrms};
 use ulna_study::Scenario;
-use ulna_study::experiment::{ExperimentRunner, LockMechanics, after_only, lock_mechanics};
+use ulna_study::experiment::{
+    ExperimentRunner, LockMechanics, StructureLoad, after_only, lock_mechanics,
+};
 use ulna_study::scenario::KnownArm;
 use ulna_study::search::{Operation, OperationOptions};
 
@@ -59,7 +61,7 @@ fn what_the_motors_feel_of_the_loads_is_the_torque_step() {
             let joints = LockedJoints::new(&lock.failed_joints).unwrap();
             let state = motion.state(lock.failure_time);
             let step = -impact_torque_of(arm, &state, joints, &nalgebra::zero());
-            let along: Vec<_> = lock.loads.iter().map(|load| load.along_axis()).collect();
+            let along: Vec<_> = lock.loads.iter().map(StructureLoad::along_axis).collect();
             let along = SVector::<f64, N>::from_column_slice(&along);
             assert!((along - step).norm() < 1e-9 * step.norm(), "{along} {step}");
         }

@@ -45,8 +45,10 @@ struct LawSummary {
     impact: Spread,
     /// What it leaves over what there was; of the cases that have an impact.
     ratio: Spread,
-    /// The share of the cases with an outcome in which it leaves more than there was.
+    /// The share of the cases with an outcome in which it leaves more than there was, as a norm.
     made_worse: Option<f64>,
+    /// The share of them in which at least one healthy joint bears more than without it.
+    a_joint_made_worse: Option<f64>,
     /// At the lock, N; `null` for laws that keep the tool force by construction.
     force_error_at_lock: Option<Spread>,
     /// At worst over the motion, likewise.
@@ -165,21 +167,22 @@ impl<'s> Summary<'s> {
             page += &self.sentence(law);
         }
         page += "\nMedian (worst) of the cases in which the joint locks:\n\n";
-        page += "| joint | law | before | after | after / before | made worse, % | force error at the lock, N | at worst over the motion, N | force asked, N |\n\
-                 |---|---|---|---|---|---|---|---|---|\n";
+        page += "| joint | law | before | after | after / before | norm made worse, % | a joint made worse, % | force error at the lock, N | at worst over the motion, N | force asked, N |\n\
+                 |---|---|---|---|---|---|---|---|---|---|\n";
         for joint in self.joints.iter().chain([&self.all]) {
             for law in &joint.laws {
                 let force = |spread: Option<Spread>| {
                     spread.map_or_else(|| "kept".to_owned(), |spread| spread.text())
                 };
                 page += &format!(
-                    "| {} | `{}` | {} | {} | {} | {} | {} | {} | {} |\n",
+                    "| {} | `{}` | {} | {} | {} | {} | {} | {} | {} | {} |\n",
                     joint.head(),
                     law.law,
                     joint.before.text(),
                     law.impact.text(),
                     law.ratio.text(),
                     law.made_worse.map_or_else(String::new, percent),
+                    law.a_joint_made_worse.map_or_else(String::new, percent),
                     force(law.force_error_at_lock),
                     force(law.max_force_error),
                     joint.asked_force.text(),
@@ -201,7 +204,9 @@ impl<'s> Summary<'s> {
         let (Some(median), Some(worst)) = (all.ratio.median, all.ratio.worst) else {
             return String::new();
         };
-        let worse = all.made_worse.map_or_else(String::new, percent);
+        let [worse, a_joint] = [all.made_worse, all.a_joint_made_worse];
+        let [worse, a_joint] =
+            [worse, a_joint].map(|share| share.map_or_else(String::new, percent));
         let force = match (all.force_error_at_lock, all.max_force_error) {
             (Some(at_lock), Some(most)) => format!(
                 " Its force error is {} N at the lock and {} N at worst over the motion (median and, in brackets, worst), of {} N asked.",
@@ -212,7 +217,7 @@ impl<'s> Summary<'s> {
             _ => String::new(),
         };
         format!(
-            "- {} leaves {} % of the impact in the median and {} % at worst; it makes {worse} % of the cases worse.{force}\n",
+            "- {} leaves {} % of the impact in the median and {} % at worst; it makes {worse} % of the cases worse, and a healthy joint in {a_joint} % of them.{force}\n",
             law.title,
             significant(100.0 * median),
             significant(100.0 * worst),
@@ -235,11 +240,14 @@ impl JointSummary {
             let ratios = pairs().filter(|(before, _)| *before > NONE);
             let worse = pairs().filter(|(before, after)| *after > before * (1.0 + WORSE) + NONE);
             let count = pairs().count();
+            let share = |cases: usize| (count > 0).then(|| cases as f64 / count as f64);
+            let joints = rows.iter().filter_map(|row| (law.worse)(row));
             LawSummary {
                 law: law.key,
                 impact: spread(law.impact),
                 ratio: Spread::of(ratios.map(|(before, after)| after / before)),
-                made_worse: (count > 0).then(|| worse.count() as f64 / count as f64),
+                made_worse: share(worse.count()),
+                a_joint_made_worse: share(joints.filter(|joints| *joints > 0).count()),
                 force_error_at_lock: law.force.map(|(at_lock, _)| spread(at_lock)),
                 max_force_error: law.force.map(|(_, most)| spread(most)),
             }

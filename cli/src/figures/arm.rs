@@ -269,17 +269,34 @@ impl View {
                 Marker::Square.draw(area, pen, at, LOCKED)?;
             }
         }
-        let style = anchored(&pen.title(), HPos::Right, VPos::Bottom);
+        let style = anchored(&pen.title(), HPos::Center, VPos::Center);
+        let mut taken: Vec<(Point, (i32, i32))> = Vec::new();
         for ((x, y), joints) in places {
             let names: Vec<_> = joints.iter().map(|joint| (joint + 1).to_string()).collect();
-            let at = (x - pen.at(7), y - pen.at(4));
+            let text = names.join(", ");
+            let (width, height) = area.estimate_text_size(&text, &pen.title())?;
+            let size = (width.cast_signed() + pen.at(4), height.cast_signed());
+            // Beside the joint, where no other number stands.
+            let beside = [(-1, -1), (1, -1), (-1, 1), (1, 1), (0, -2), (0, 2)];
+            let beside = beside.map(|(dx, dy)| {
+                let right = dx * (size.0 / 2 + pen.at(5));
+                (x + right, y + dy * (size.1 / 2 + pen.at(5)))
+            });
+            let free = |at: &&Point| {
+                taken.iter().all(|(other, extent)| {
+                    2 * (at.0 - other.0).abs() > size.0 + extent.0
+                        || 2 * (at.1 - other.1).abs() > size.1 + extent.1
+                })
+            };
+            let at = *beside.iter().find(free).unwrap_or(&beside[0]);
+            taken.push((at, size));
             // A white rim keeps it legible on lines.
             for (dx, dy) in [(-1, 0), (1, 0), (0, -1), (0, 1)] {
                 let rim = style.color(&WHITE);
                 let at = (at.0 + pen.at(dx), at.1 + pen.at(dy));
-                area.draw(&Text::new(names.join(", "), at, rim))?;
+                area.draw(&Text::new(text.clone(), at, rim))?;
             }
-            area.draw(&Text::new(names.join(", "), at, style.clone()))?;
+            area.draw(&Text::new(text, at, style.clone()))?;
         }
         Ok(())
     }

@@ -92,8 +92,12 @@ fn summary_is_of_the_rows(output: &Path, csv: &str) {
         .iter()
         .zip(&after)
         .filter(|(before, after)| after > before);
-    let share = worse.count() as f64 / before.len() as f64;
-    assert_eq!(first["laws"][1]["made_worse"], share);
+    let share = |cases: usize| cases as f64 / before.len() as f64;
+    assert_eq!(first["laws"][1]["made_worse"], share(worse.count()));
+    let joints = of_first("eq20_worse_joints").into_iter();
+    let cases = joints.filter(|joints| *joints > 0.0).count();
+    assert!(cases > 0);
+    assert_eq!(first["laws"][1]["a_joint_made_worse"], share(cases));
     // After the lock alone there is less to do than before and after it, and never harm.
     for row in &rows {
         let number = |name: &str| row[column(name)].parse::<f64>().unwrap();

@@ -63,14 +63,24 @@ pub struct CampaignOutcome {
     pub force_error: f64,
     /// The largest h over the whole motion.
     pub max_force_error: f64,
+    /// How many healthy joints bear a larger step than without compensation; growth below 1e-9 of the largest step is rounding.
+    pub worse_joints: usize,
 }
 
 impl CampaignOutcome {
-    fn of<const N: usize>(assessment: &Assessment<N>) -> Self {
+    fn of<const N: usize>(operation: &Operation<N>, assessment: &Assessment<N>) -> Self {
+        /// Relative to the largest step.
+        const ROUNDING: f64 = 1e-9;
+        let step = operation.step();
+        let rounding = ROUNDING * step.amax();
+        let worse = operation
+            .healthy()
+            .filter(|joint| assessment.impact[*joint].abs() > step[*joint].abs() + rounding);
         Self {
             impact: assessment.healthy_impact,
             force_error: assessment.force_error(),
             max_force_error: assessment.max_force_error,
+            worse_joints: worse.count(),
         }
     }
 }
@@ -179,13 +189,14 @@ fn assess<const N: usize>(
     let projected = least_impact(operation, Objective::LeastSquares)?.assessment;
     let optimal = optimal(operation, ForcePriority::Exact)?.assessment;
     let after_only = operation.assess(&after_only(operation));
+    let outcome = |assessment: &Assessment<N>| CampaignOutcome::of(operation, assessment);
     Ok(CampaignResult {
         before: operation.failure().joints.without(&step).norm(),
         locked_before: step[failed_joint].abs(),
         asked_force: asked.norm(),
-        per_joint: CampaignOutcome::of(&per_joint),
-        projected: CampaignOutcome::of(&projected),
-        optimal: CampaignOutcome::of(&optimal),
-        after_only: CampaignOutcome::of(&after_only),
+        per_joint: outcome(&per_joint),
+        projected: outcome(&projected),
+        optimal: outcome(&optimal),
+        after_only: outcome(&after_only),
     })
 }
