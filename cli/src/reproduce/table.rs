@@ -49,7 +49,10 @@ pub(super) fn write(
             writeln!(out, "{}", impacts(scenario, study, reference, asked))?;
             for (method, title) in METHODS {
                 if let Err(error) = &study.case(method).search {
-                    writeln!(out, " {title}: {error}")?;
+                    writeln!(
+                        out,
+                        " {title}: {error}; its column is the motion without compensation, cut to the rated torques"
+                    )?;
                 }
             }
         }
@@ -189,6 +192,8 @@ fn searches(studies: &[&Study]) -> String {
         "steps",
         "microseconds",
         "norm left, N m",
+        "force error at the lock, N",
+        "at worst, N",
     ]);
     for case in studies.iter().flat_map(|study| &study.cases) {
         let (ended, steps, time) = match &case.search {
@@ -206,6 +211,8 @@ fn searches(studies: &[&Study]) -> String {
             steps,
             time,
             significant(case.healthy_impact().1),
+            significant(case.force_error),
+            significant(case.rollout.max_force_error),
         ]);
     }
     plain(table, &[1, 2])

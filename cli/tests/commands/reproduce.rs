@@ -356,6 +356,23 @@ fn the_page_names_searches_that_stopped_early() {
     assert!(!page.contains("**The search in steps.**"), "{page}");
 }
 
+/// The paper's 300 N m cannot be kept: the plan alone needs more.
+#[test]
+fn the_page_says_where_the_plan_alone_needs_too_much() {
+    let limits = ("rated_torque = \"none\"", "rated_torque = 300.0");
+    let folder = quick_scenario(&[limits]);
+    let out = stdout(&reproduce(&folder).code(0));
+    assert!(out.contains("10 s  exactly"), "{out}");
+    let page = fs::read_to_string(folder.path().join("out/README.md")).unwrap();
+    for text in [
+        "**No compensation was found** for `eq16_steps` at 10 s (no compensation keeps joint 4 within its rated torque",
+        "405.4 N·m, 30.53 N·m",
+        "That is more than the rated torque of joint 4:",
+    ] {
+        assert!(page.contains(text), "{text:?} is missing in:\n{page}");
+    }
+}
+
 /// The paper's figures are for joint 2.
 #[test]
 fn references_for_another_lock_are_left_out_and_named() {

@@ -55,6 +55,19 @@ fn of(studies: &[&Study], method: SearchMethod, value: fn(&Case) -> f64) -> Stri
     })
 }
 
+/// Whether a method has a compensation at some failure time.
+fn is_found(studies: &[&Study], method: SearchMethod) -> bool {
+    let mut cases = studies.iter().map(|study| study.case(method));
+    cases.any(|case| case.search.is_ok())
+}
+
+/// The norm over the healthy joints without compensation.
+fn before(studies: &[&Study]) -> String {
+    at_each(studies, |study| {
+        significant(study.case(SearchMethod::PerJoint).healthy_impact().0)
+    })
+}
+
 /// The share of the impact that a method leaves over the healthy joints; 1 where there is none to take away.
 fn share_left(study: &Study, method: SearchMethod) -> f64 {
     let (before, after) = study.case(method).healthy_impact();
@@ -75,14 +88,13 @@ pub(super) fn suppression_against_force(
             "**The lock changes no healthy joint's torque:** there is nothing to suppress.\n"
         );
     }
-    let before: fn(&Case) -> f64 = |case| case.healthy_impact().0;
     let after: fn(&Case) -> f64 = |case| case.healthy_impact().1;
     if locks.iter().all(|lock| Room::of(lock) == Room::None) {
         return writeln!(
             page,
             "For locks at {} s the healthy joints bear steps of {} N·m (norm), and with every law of {} N·m: there is no joint to spare.\n",
             times(studies),
-            of(studies, SearchMethod::PerJoint, before),
+            before(studies),
             of(studies, SearchMethod::Optimal, after),
         );
     }
@@ -95,24 +107,28 @@ pub(super) fn suppression_against_force(
     writeln!(
         page,
         "- Without compensation the healthy joints bear steps of {} N·m (norm). The tool is to exert {} N at the lock, at most {} N in the motion.",
-        of(studies, SearchMethod::PerJoint, before),
+        before(studies),
         join(asked, |asked| asked.at_lock),
         join(asked, |asked| asked.most),
     )?;
     per_joint(page, studies, after)?;
-    let force = |method: SearchMethod| force_error(studies, method);
-    writeln!(
-        page,
-        "- Eq. 20 leaves {} N·m, and {}.",
-        of(studies, SearchMethod::Projected, after),
-        force(SearchMethod::Projected)
-    )?;
-    writeln!(
-        page,
-        "- The least that any compensation can leave that keeps the tool force before and after the lock is {} N·m (the law `optimal`); it {}.\n",
-        of(studies, SearchMethod::Optimal, after),
-        force(SearchMethod::Optimal)
-    )?;
+    if is_found(studies, SearchMethod::Projected) {
+        writeln!(
+            page,
+            "- Eq. 20 leaves {} N·m, and {}.",
+            of(studies, SearchMethod::Projected, after),
+            force_error(studies, SearchMethod::Projected)
+        )?;
+    }
+    if is_found(studies, SearchMethod::Optimal) {
+        writeln!(
+            page,
+            "- The least that any compensation can leave that keeps the tool force before and after the lock is {} N·m (the law `optimal`); it {}.",
+            of(studies, SearchMethod::Optimal, after),
+            force_error(studies, SearchMethod::Optimal)
+        )?;
+    }
+    writeln!(page)?;
     if is_beside_paper(scenario, experiment, studies) {
         writeln!(
             page,
@@ -124,6 +140,9 @@ pub(super) fn suppression_against_force(
 
 /// What Eq. 16 does.
 fn per_joint(page: &mut String, studies: &[&Study], after: fn(&Case) -> f64) -> fmt::Result {
+    if !is_found(studies, SearchMethod::PerJoint) {
+        return Ok(());
+    }
     let mut kept = Vec::new();
     for study in studies {
         let case = study.case(SearchMethod::PerJoint);
@@ -153,7 +172,8 @@ fn per_joint(page: &mut String, studies: &[&Study], after: fn(&Case) -> f64) -> 
 
 /// What a method does to the tool force.
 fn force_error(studies: &[&Study], method: SearchMethod) -> String {
-    let cases = || studies.iter().map(|study| study.case(method));
+    let cases = studies.iter().map(|study| study.case(method));
+    let cases = || cases.clone().filter(|case| case.search.is_ok());
     let most = cases().map(|case| case.rollout.max_force_error);
     let most = most.fold(0.0, f64::max);
     let overloaded = cases().any(|case| case.rollout.status == Status::Overloaded);
@@ -198,7 +218,7 @@ fn headline(scenario: &Scenario, experiment: &Experiment, studies: &[&Study]) ->
         kept.iter().copied().reduce(f64::min),
         kept.iter().copied().reduce(f64::max),
     ) else {
-        return "**No compensation keeps the rated torques.**".to_owned();
+        return "**No compensation keeps the tool force and the rated torques.**".to_owned();
     };
     let claimed = is_beside_paper(scenario, experiment, studies);
     if most <= 0.05 {
@@ -308,6 +328,10 @@ pub(super) fn limits(page: &mut String, scenario: &Scenario, studies: &[&Study])
                 };
                 format!("{} {unit}", significant(*torque))
             });
+        let law = match case.search {
+            Ok(_) => "under Eq. 16",
+            Err(_) => "without compensation and cut to them",
+        };
         let too_much = beyond(&plan, 1.0 + ROUNDING);
         let too_much = if too_much.is_empty() {
             String::new()
@@ -320,7 +344,7 @@ pub(super) fn limits(page: &mut String, scenario: &Scenario, studies: &[&Study])
         };
         writeln!(
             page,
-            "Rated torques, lock at {} s: under Eq. 16 they bind at {}; {exceeded}. \
+            "Rated torques, lock at {} s: {law} they bind at {}; {exceeded}. \
              The plan alone, motion and tool force, needs of joints 1 to {}: {}.{too_much}\n",
             study.failure_time,
             joints_named(&beyond(&case.rollout.max_torque, 1.0 - 1e-6)),

@@ -37,7 +37,7 @@ pub(super) fn unfinished(page: &mut String, studies: &[&Study]) -> fmt::Result {
     if !none.is_empty() {
         writeln!(
             page,
-            "**No compensation was found** for {}. Their rows show the motion without compensation.\n",
+            "**No compensation was found** for {}. Their rows show the motion without one, cut to the rated torques.\n",
             none.join("; ")
         )?;
     }
