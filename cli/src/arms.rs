@@ -30,6 +30,13 @@ macro_rules! generated_arms {
                 _ => bail!("no arm `{name}` was compiled into the program"),
             }
         }
+
+        fn with_generated_chain<W: ForChain>(name: &str, work: W) -> anyhow::Result<W::Output> {
+            match name {
+                $(stringify!($name) => Ok(work.run(&ulna_generated::$Type::CHAIN)),)+
+                _ => bail!("no arm `{name}` was compiled into the program"),
+            }
+        }
     };
 }
 ulna_generated::for_each_arm!(generated_arms);
@@ -49,5 +56,16 @@ pub(crate) fn with_arm<W: ForArm>(arm: &ScenarioArm, work: W) -> anyhow::Result<
     match arm {
         ScenarioArm::Known(known) => with_generated(known.name, work),
         ScenarioArm::Table { model, .. } => with_chain(model, OnChain(work)),
+    }
+}
+
+/// Runs `work` on the arm as data: for what no generated code offers, such as where the links are.
+///
+/// # Errors
+/// As [`with_arm`].
+pub(crate) fn with_chain_of<W: ForChain>(arm: &ScenarioArm, work: W) -> anyhow::Result<W::Output> {
+    match arm {
+        ScenarioArm::Known(known) => with_generated_chain(known.name, work),
+        ScenarioArm::Table { model, .. } => with_chain(model, work),
     }
 }

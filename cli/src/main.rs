@@ -15,6 +15,7 @@ mod generate;
 mod help;
 mod joints;
 mod man;
+mod numbers;
 mod output;
 mod reproduce;
 mod rows;

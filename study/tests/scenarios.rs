@@ -85,6 +85,7 @@ fn the_paper_like_scenario_is_that_of_the_notes() {
     );
     assert_eq!(constant.references().len(), 3);
     assert_eq!(constant.references()[0].before()[1], Some(66.72));
+    assert_eq!(constant.references()[0].failed_joints(), Some(&[1][..]));
 }
 
 trait WithoutMoment {
@@ -178,6 +179,28 @@ fn forces_are_polynomials_of_time() {
     let force = scenario.experiments()[0].force();
     assert_eq!(force.at(10.0), Vector6::new(60.0, 5.0, 0.0, 0.0, 0.0, -9.0));
     assert!(!force.is_constant());
+}
+
+#[test]
+fn a_reference_may_say_which_joints_lock_there() {
+    let of = |written: &str| {
+        let text = edited(&[("time = 10.0\nfailed_joints = [2]", written)]);
+        let scenario = parse(&text)?;
+        let reference = &scenario.experiments()[0].references()[0];
+        Ok::<_, ScenarioErrors>(reference.failed_joints().map(<[usize]>::to_vec))
+    };
+    assert_eq!(
+        of("time = 10.0\nfailed_joints = [4, 2]").unwrap(),
+        Some(vec![1, 3])
+    );
+    assert_eq!(of("time = 10.0\n#").unwrap(), None);
+    let refusal = of("time = 10.0\nfailed_joints = [8]").unwrap_err();
+    assert!(
+        refusal.to_string().contains(
+            "item 1 of `failed_joints` of reference 1 of experiment 1 is no joint of the arm"
+        ),
+        "{refusal}"
+    );
 }
 
 #[test]

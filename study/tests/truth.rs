@@ -212,7 +212,7 @@ fn the_projector_reaches_searches_rollouts_and_simulations() {
     assert!(run(&in_motion, Some(method)).tool_acceleration < 1e-9);
     let [a, b] = scenarios.each_ref().map(|scenario| {
         let case = Campaign::new(&Ssrms, scenario).unwrap().case(29);
-        case.outcome.unwrap().projected
+        case.outcome.unwrap().projected.impact
     });
     assert!((a / b - 1.0).abs() > 1e-6, "{a} {b}");
 }

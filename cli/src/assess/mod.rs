@@ -65,12 +65,12 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     files.add("assess.json", results::json(&findings)?);
     files.add(PAGE, page::write(&findings));
     let maps = RatioMaps::of_singles(&findings.assessment, &findings.times, &scenario);
-    files.add(format!("{MAPS}.svg"), figures::svg(&maps)?);
-    files.add(format!("{MAPS}.png"), figures::png(&maps)?);
+    files.add(format!("{MAPS}.svg"), figures::svg(&maps, &maps.footer())?);
+    files.add(format!("{MAPS}.png"), figures::png(&maps, &maps.footer())?);
     if findings.has_pairs() {
         let maps = RatioMaps::of_pairs(&findings.assessment, &findings.times, &scenario);
-        files.add(format!("{PAIRS}.svg"), figures::svg(&maps)?);
-        files.add(format!("{PAIRS}.png"), figures::png(&maps)?);
+        files.add(format!("{PAIRS}.svg"), figures::svg(&maps, &maps.footer())?);
+        files.add(format!("{PAIRS}.png"), figures::png(&maps, &maps.footer())?);
     }
     let written = files.write_to(&arguments.output)?;
     console::note(&format!(

@@ -6,7 +6,7 @@ use ulna_study::assess::{Law, LawAssessment};
 
 use super::table::{columns, failure, heading, title};
 use super::{Findings, MAPS, PAIRS};
-use crate::reproduce::words::significant;
+use crate::numbers::significant;
 
 /// Markdown.
 pub(super) fn write(findings: &Findings<'_>) -> String {

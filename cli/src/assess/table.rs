@@ -7,7 +7,8 @@ use ulna_study::assess::{Law, LawAssessment, Statistics, Tuning};
 
 use super::Findings;
 use crate::columns::plain;
-use crate::reproduce::words::{joints_named, significant};
+use crate::numbers::significant;
+use crate::reproduce::words::joints_named;
 
 /// What a law is called where people read.
 pub(crate) fn title(law: &LawAssessment) -> String {

@@ -74,8 +74,9 @@ impl CampaignFile {
         let mut text = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
         if !text.starts_with(rows::header::<Row>()?.as_bytes()) {
             bail!(
-                "{} is no file of a campaign; choose another --output",
-                path.display()
+                "{} is no file of a campaign, or of an older one with other columns; {}",
+                path.display(),
+                remedy()
             );
         }
         let record = Record::read(folder, path, identity)?;

@@ -3,6 +3,7 @@
 mod file;
 mod record;
 mod row;
+mod summary;
 
 use std::fs;
 use std::io::Write;
@@ -23,7 +24,9 @@ use crate::output::{self, Files, FolderLock};
 use crate::{Verdict, console};
 use file::CampaignFile;
 use record::Identity;
-pub(crate) use row::Row;
+pub(crate) use row::{LAWS, Quantity, Row};
+use summary::Summary;
+pub(crate) use summary::median;
 
 /// Vary a scenario: every joint, a grid of failure times, random starts, goals and forces
 #[derive(Args)]
@@ -45,7 +48,7 @@ pub(crate) struct Arguments {
     /// How many threads; without it one for each core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Where campaign.csv and the figures go
+    /// Where campaign.csv, campaign.md and the figures go
     #[arg(long, short, value_name = "DIR", default_value = "out")]
     output: PathBuf,
 }
@@ -72,10 +75,22 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     let (rows, _lock) = pool.install(|| with_arm(scenario.arm(), work))??;
 
     let map = HeatMap::new(&rows, scenario.arm().joints().len());
-    writeln!(out, "{}", map.summary(&scenario))?;
+    let summary = Summary::new(&scenario, &rows);
+    writeln!(out, "{}", summary.console())?;
+    let footer = format!(
+        "arm {}, scenario {}, campaign of {} cases, seed {}",
+        scenario.arm().name(),
+        scenario.name(),
+        rows.len(),
+        scenario.campaign().seed()
+    );
     let mut files = Files::default();
-    files.add("figures/campaign.svg", figures::svg(&map)?);
-    files.add("figures/campaign.png", figures::png(&map)?);
+    files.add("campaign.md", summary.page());
+    let mut json = serde_json::to_vec_pretty(&summary)?;
+    json.push(b'\n');
+    files.add("campaign-summary.json", json);
+    files.add("figures/campaign.svg", figures::svg(&map, &footer)?);
+    files.add("figures/campaign.png", figures::png(&map, &footer)?);
     for path in files.write_to(folder)? {
         console::note(&format!("wrote {}", path.display()));
     }

@@ -14,7 +14,17 @@ pub(crate) struct Row {
     pub(crate) eq16: Option<f64>,
     pub(crate) eq20: Option<f64>,
     pub(crate) optimal: Option<f64>,
+    pub(crate) after_only: Option<f64>,
+    pub(crate) asked_force: Option<f64>,
     pub(crate) eq16_force_error: Option<f64>,
+    pub(crate) eq16_max_force_error: Option<f64>,
+    pub(crate) eq20_force_error: Option<f64>,
+    pub(crate) eq20_max_force_error: Option<f64>,
+    /// How many healthy joints bear more than without compensation, law by law.
+    pub(crate) eq16_worse_joints: Option<usize>,
+    pub(crate) eq20_worse_joints: Option<usize>,
+    pub(crate) optimal_worse_joints: Option<usize>,
+    pub(crate) after_only_worse_joints: Option<usize>,
     pub(crate) locked_before: Option<f64>,
     pub(crate) status: String,
 }
@@ -28,10 +38,19 @@ impl Row {
             failed_joint: case.failed_joint + 1,
             failure_time: case.failure_time,
             before: outcome.map(|outcome| outcome.before),
-            eq16: outcome.map(|outcome| outcome.per_joint),
-            eq20: outcome.map(|outcome| outcome.projected),
-            optimal: outcome.map(|outcome| outcome.optimal),
-            eq16_force_error: outcome.map(|outcome| outcome.per_joint_force_error),
+            eq16: outcome.map(|outcome| outcome.per_joint.impact),
+            eq20: outcome.map(|outcome| outcome.projected.impact),
+            optimal: outcome.map(|outcome| outcome.optimal.impact),
+            after_only: outcome.map(|outcome| outcome.after_only.impact),
+            asked_force: outcome.map(|outcome| outcome.asked_force),
+            eq16_force_error: outcome.map(|outcome| outcome.per_joint.force_error),
+            eq16_max_force_error: outcome.map(|outcome| outcome.per_joint.max_force_error),
+            eq20_force_error: outcome.map(|outcome| outcome.projected.force_error),
+            eq20_max_force_error: outcome.map(|outcome| outcome.projected.max_force_error),
+            eq16_worse_joints: outcome.map(|outcome| outcome.per_joint.worse_joints),
+            eq20_worse_joints: outcome.map(|outcome| outcome.projected.worse_joints),
+            optimal_worse_joints: outcome.map(|outcome| outcome.optimal.worse_joints),
+            after_only_worse_joints: outcome.map(|outcome| outcome.after_only.worse_joints),
             locked_before: outcome.map(|outcome| outcome.locked_before),
             status: match &case.outcome {
                 Ok(_) => "ok".to_owned(),
@@ -40,6 +59,54 @@ impl Row {
         }
     }
 }
+
+/// A quantity of a case.
+pub(crate) type Quantity = fn(&Row) -> Option<f64>;
+
+/// A law of a campaign: a row here is a column of every table and a panel of the figure.
+pub(crate) struct CampaignLaw {
+    /// In files.
+    pub(crate) key: &'static str,
+    pub(crate) title: &'static str,
+    /// What it leaves over the healthy joints, N m (N).
+    pub(crate) impact: Quantity,
+    /// How many healthy joints it makes worse.
+    pub(crate) worse: fn(&Row) -> Option<usize>,
+    /// Its force errors at the lock and at worst over the motion, N; `None` where it keeps the tool force by construction.
+    pub(crate) force: Option<(Quantity, Quantity)>,
+}
+
+/// In the order of tables and panels.
+pub(crate) const LAWS: [CampaignLaw; 4] = [
+    CampaignLaw {
+        key: "eq16",
+        title: "Eq. 16",
+        impact: |row| row.eq16,
+        worse: |row| row.eq16_worse_joints,
+        force: Some((|row| row.eq16_force_error, |row| row.eq16_max_force_error)),
+    },
+    CampaignLaw {
+        key: "eq20",
+        title: "Eq. 20",
+        impact: |row| row.eq20,
+        worse: |row| row.eq20_worse_joints,
+        force: Some((|row| row.eq20_force_error, |row| row.eq20_max_force_error)),
+    },
+    CampaignLaw {
+        key: "optimal",
+        title: "optimal",
+        impact: |row| row.optimal,
+        worse: |row| row.optimal_worse_joints,
+        force: None,
+    },
+    CampaignLaw {
+        key: "after_only",
+        title: "after only",
+        impact: |row| row.after_only,
+        worse: |row| row.after_only_worse_joints,
+        force: None,
+    },
+];
 
 /// The rows of a file with its header, if they are whole and numbered without a gap.
 pub(super) fn read(text: &[u8]) -> Option<Vec<Row>> {

@@ -40,7 +40,18 @@ pub(super) fn panel<'a, DB: DrawingBackend>(
     axes: &Axes<'_>,
 ) -> Built<'a, DB, RangedCoordf64, RangedCoordf64> {
     let (x, y) = (axes.x.1.clone(), axes.y.1.clone());
-    with_coordinates(area, pen, axes, (x, 7), (y, 6))
+    with_coordinates(area, pen, axes, (x, 7), (y, 6), Snap::Linear)
+}
+
+/// An empty panel with a tick at each whole number of its horizontal axis.
+pub(super) fn count_panel<'a, DB: DrawingBackend>(
+    area: &'a Area<DB>,
+    pen: Pen,
+    axes: &Axes<'_>,
+) -> Built<'a, DB, RangedCoordf64, RangedCoordf64> {
+    let (x, y) = (axes.x.1.clone(), axes.y.1.clone());
+    let ticks = (axes.x.1.end - axes.x.1.start) as usize;
+    with_coordinates(area, pen, axes, (x, ticks), (y, 6), Snap::Linear)
 }
 
 /// An empty panel with a tick at each whole number of its horizontal axis and a logarithmic vertical one.
@@ -51,7 +62,7 @@ pub(super) fn bar_panel<'a, DB: DrawingBackend>(
 ) -> Built<'a, DB, RangedCoordf64, LogCoord<f64>> {
     let (x, y) = (axes.x.1.clone(), axes.y.1.clone().log_scale());
     let ticks = (axes.x.1.end - axes.x.1.start) as usize;
-    with_coordinates(area, pen, axes, (x, ticks), (y, 6))
+    with_coordinates(area, pen, axes, (x, ticks), (y, 6), Snap::Log)
 }
 
 /// An empty panel with a tick at each whole number of its vertical axis.
@@ -62,7 +73,7 @@ pub(super) fn grid_panel<'a, DB: DrawingBackend>(
 ) -> Built<'a, DB, RangedCoordf64, RangedCoordf64> {
     let (x, y) = (axes.x.1.clone(), axes.y.1.clone());
     let ticks = (axes.y.1.end - axes.y.1.start) as usize + 1;
-    with_coordinates(area, pen, axes, (x, 7), (y, ticks))
+    with_coordinates(area, pen, axes, (x, 7), (y, ticks), Snap::Linear)
 }
 
 /// An empty panel with a name at each whole number of its horizontal axis, from 1 on, and a logarithmic vertical one.
@@ -88,7 +99,7 @@ pub(super) fn category_panel<'a, DB: DrawingBackend>(
             .unwrap_or_default()
     };
     let coordinates = ((x, names.len()), (y.log_scale(), 6));
-    with_names(area, pen, &axes, coordinates, &name)
+    with_names(area, pen, &axes, coordinates, Snap::Log, &name)
 }
 
 /// An empty panel with two logarithmic axes.
@@ -98,7 +109,27 @@ pub(super) fn double_log_panel<'a, DB: DrawingBackend>(
     axes: &Axes<'_>,
 ) -> Built<'a, DB, LogCoord<f64>, LogCoord<f64>> {
     let (x, y) = (axes.x.1.clone().log_scale(), axes.y.1.clone().log_scale());
-    with_coordinates(area, pen, axes, (x, 8), (y, 8))
+    with_coordinates(area, pen, axes, (x, 8), (y, 8), Snap::Log)
+}
+
+/// What ticks that are almost 0 are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Snap {
+    /// 0, but for the rounding of a sum of steps.
+    Linear,
+    /// Small numbers.
+    Log,
+}
+
+impl Snap {
+    /// `value`, a tick of an axis of this `range`.
+    fn tick(self, value: f64, range: &Range<f64>) -> String {
+        let rounding = 1e-9 * (range.end - range.start);
+        if self == Self::Linear && value.abs() < rounding {
+            return tick(0.0);
+        }
+        tick(value)
+    }
 }
 
 /// An empty panel with these coordinates, and about so many ticks on each axis.
@@ -108,6 +139,7 @@ fn with_coordinates<'a, DB: DrawingBackend, X, Y>(
     axes: &Axes<'_>,
     x: (X, usize),
     y: (Y, usize),
+    snap: Snap,
 ) -> Built<'a, DB, X::CoordDescType, Y::CoordDescType>
 where
     X: AsRangedCoord<Value = f64>,
@@ -115,7 +147,8 @@ where
     Y: AsRangedCoord<Value = f64>,
     Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
 {
-    with_names(area, pen, axes, (x, y), &tick)
+    let range = axes.x.1.clone();
+    with_names(area, pen, axes, (x, y), snap, &|x| snap.tick(x, &range))
 }
 
 /// The same with names of its own at the ticks of the horizontal axis.
@@ -124,6 +157,7 @@ fn with_names<'a, DB: DrawingBackend, X, Y>(
     pen: Pen,
     axes: &Axes<'_>,
     ((x, x_ticks), (y, y_ticks)): ((X, usize), (Y, usize)),
+    snap: Snap,
     name: &dyn Fn(f64) -> String,
 ) -> Built<'a, DB, X::CoordDescType, Y::CoordDescType>
 where
@@ -158,7 +192,7 @@ where
         .x_labels(x_ticks)
         .y_labels(y_ticks)
         .x_label_formatter(&|x| name(*x))
-        .y_label_formatter(&|y| tick(*y))
+        .y_label_formatter(&|y| snap.tick(*y, &axes.y.1))
         .x_desc(axes.x.0)
         .y_desc(axes.y.0)
         .label_style(pen.small())

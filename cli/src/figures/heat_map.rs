@@ -1,4 +1,4 @@
-//! The impact over joint and failure time, before and after: the picture of a campaign.
+//! The impact over joint and failure time, before and after, and the force error of Eq. 16: the picture of a campaign.
 
 use std::cmp::Ordering;
 
@@ -7,22 +7,11 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{Color, RGBColor};
-use ulna_study::Scenario;
 
 use super::chart::{Axes, grid_panel, tick};
-use super::style::{BLACK, GREY, Pen, anchored};
+use super::style::{BLACK, Pen, WHITE, anchored};
 use super::{Area, Drawn, Figure};
-use crate::campaign::Row;
-
-/// A quantity of a case.
-type Quantity = fn(&Row) -> Option<f64>;
-
-const PANELS: [(&str, Quantity); 4] = [
-    ("without suppression", |row| row.before),
-    ("Eq. 16 (force bent)", |row| row.eq16),
-    ("Eq. 20 (force kept)", |row| row.eq20),
-    ("optimal (force kept)", |row| row.optimal),
-];
+use crate::campaign::{LAWS, Quantity, Row, median};
 
 /// Medians over the cases of each joint and failure time.
 pub(crate) struct HeatMap<'r> {
@@ -31,6 +20,40 @@ pub(crate) struct HeatMap<'r> {
     joints: usize,
     /// Ascending.
     times: Vec<f64>,
+}
+
+/// Panels with one colour scale.
+struct Group {
+    panels: Vec<(String, Quantity)>,
+    /// The words beside the scale.
+    scale: [&'static str; 2],
+}
+
+/// Impacts, and force errors.
+fn groups() -> [Group; 2] {
+    let mut impacts: Vec<(String, Quantity)> =
+        vec![("without suppression".to_owned(), |row| row.before)];
+    impacts.extend(LAWS.iter().map(|law| (law.title.to_owned(), law.impact)));
+    let forces = LAWS
+        .iter()
+        .take(1)
+        .filter_map(|law| Some((law, law.force?)));
+    let forces = forces.flat_map(|(law, (at_lock, most))| {
+        [
+            (format!("{}: force error at the lock", law.title), at_lock),
+            (format!("{}: force error at worst", law.title), most),
+        ]
+    });
+    [
+        Group {
+            panels: impacts,
+            scale: ["median impact", "in N\u{b7}m"],
+        },
+        Group {
+            panels: forces.collect(),
+            scale: ["median error", "in N"],
+        },
+    ]
 }
 
 impl<'r> HeatMap<'r> {
@@ -48,42 +71,6 @@ impl<'r> HeatMap<'r> {
         }
     }
 
-    /// A line for each joint: medians over all its cases.
-    pub(crate) fn summary(&self, scenario: &Scenario) -> String {
-        let done = self.rows.iter().filter(|row| row.before.is_some()).count();
-        let without = match self.rows.len() - done {
-            0 => String::new(),
-            count => format!(", {count} without (the column `status` says why)"),
-        };
-        let mut lines = vec![
-            format!(
-                "{}: arm {}, {} cases, {done} with an outcome{without}; seed {}",
-                scenario.name(),
-                scenario.arm().name(),
-                self.rows.len(),
-                scenario.campaign().seed()
-            ),
-            "median impact, norm over the healthy joints, N m".to_owned(),
-            format!(
-                "{:>6} {:>10} {:>10} {:>10} {:>10}",
-                "joint", "before", "Eq.16", "Eq.20", "optimal"
-            ),
-        ];
-        for joint in 1..=self.joints {
-            let of_joint = |row: &&&Row| row.failed_joint == joint;
-            let cells = PANELS.map(|(_, quantity)| {
-                let values = self.rows.iter().filter(of_joint);
-                let values = values.filter_map(|row| quantity(row));
-                median(values.collect()).map_or_else(String::new, |median| format!("{median:.3}"))
-            });
-            let [before, eq16, eq20, optimal] = cells;
-            lines.push(format!(
-                "{joint:>6} {before:>10} {eq16:>10} {eq20:>10} {optimal:>10}"
-            ));
-        }
-        lines.join("\n")
-    }
-
     fn cell(&self, joint: usize, time: f64, quantity: Quantity) -> Option<f64> {
         let first = |past: Ordering| {
             self.rows
@@ -93,14 +80,15 @@ impl<'r> HeatMap<'r> {
         median(here.iter().filter_map(|row| quantity(row)).collect())
     }
 
-    /// The ends of the colour scale, powers of ten: four decades up to the largest median without suppression.
-    fn decades(&self) -> (f64, f64) {
-        let (_, before) = PANELS[0];
-        let joints = 1..=self.joints;
-        let cells = joints.flat_map(|joint| {
-            self.times
-                .iter()
-                .filter_map(move |time| self.cell(joint, *time, before))
+    /// The ends of the colour scale of a group, powers of ten: four decades up to the largest median in its panels.
+    fn decades(&self, group: &Group) -> (f64, f64) {
+        let quantities = group.panels.iter().map(|(_, quantity)| *quantity);
+        let cells = quantities.flat_map(|quantity| {
+            let joints = 1..=self.joints;
+            joints.flat_map(move |joint| {
+                let times = self.times.iter();
+                times.filter_map(move |time| self.cell(joint, *time, quantity))
+            })
         });
         let most = cells.fold(1e-6, f64::max).log10().ceil();
         (most - 4.0, most)
@@ -113,30 +101,42 @@ fn order(row: &Row, joint: usize, time: f64) -> Ordering {
     joints.then(row.failure_time.total_cmp(&time))
 }
 
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    let upper = values.get(values.len() / 2)?;
-    let lower = values.get(values.len().saturating_sub(1) / 2)?;
-    Some(0.5 * (upper + lower))
-}
-
 /// The colour of a value on the logarithmic scale; what is below it has the lowest colour.
 fn colour(value: f64, (least, most): (f64, f64)) -> RGBColor {
     let share = (value.max(1e-300).log10() - least) / (most - least);
     ViridisRGB.get_color(share.clamp(0.0, 1.0))
 }
 
+/// The panels stand in two columns.
+const COLUMNS: usize = 2;
+
 impl Figure for HeatMap<'_> {
     fn size(&self) -> (u32, u32) {
-        (1000, 620)
+        let rows = groups().map(|group| group.panels.len().div_ceil(COLUMNS));
+        (1000, 280 * rows.iter().sum::<usize>() as u32)
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
-        let scale = self.decades();
+        let mut rest = area.clone();
+        for group in groups() {
+            let rows = group.panels.len().div_ceil(COLUMNS);
+            let (upper, lower) = rest.split_vertically(pen.px(280 * rows as u32));
+            rest = lower;
+            self.group(&upper, pen, &group)?;
+        }
+        Ok(())
+    }
+}
+
+impl HeatMap<'_> {
+    fn group<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen, group: &Group) -> Drawn<DB> {
+        let scale = self.decades(group);
         let (body, side) = area.split_horizontally(area.dim_in_pixel().0 - pen.px(120));
         let half = self.times.first().copied().unwrap_or(0.5);
         let end = self.times.last().copied().unwrap_or(0.5) + half;
-        for (area, (title, quantity)) in body.split_evenly((2, 2)).iter().zip(PANELS) {
+        let rows = group.panels.len().div_ceil(COLUMNS);
+        let areas = body.split_evenly((rows, COLUMNS));
+        for (area, (title, quantity)) in areas.iter().zip(&group.panels) {
             let axes = Axes {
                 title,
                 x: ("failure time in s", 0.0..end),
@@ -146,15 +146,15 @@ impl Figure for HeatMap<'_> {
             for joint in 1..=self.joints {
                 for time in &self.times {
                     let colour = self
-                        .cell(joint, *time, quantity)
-                        .map_or(GREY, |value| colour(value, scale));
+                        .cell(joint, *time, *quantity)
+                        .map_or(WHITE, |value| colour(value, scale));
                     let y = joint as f64;
                     let cell = [(time - half, y - 0.5), (time + half, y + 0.5)];
                     panel.draw_series([Rectangle::new(cell, colour.filled())])?;
                 }
             }
         }
-        colour_bar(&side, pen, scale)
+        colour_bar(&side, pen, scale, group.scale)
     }
 }
 
@@ -163,9 +163,10 @@ fn colour_bar<DB: DrawingBackend>(
     area: &Area<DB>,
     pen: Pen,
     (least, most): (f64, f64),
+    words: [&'static str; 2],
 ) -> Drawn<DB> {
     let height = area.dim_in_pixel().1.cast_signed();
-    let (top, bottom) = (pen.at(60), height - pen.at(60));
+    let (top, bottom) = (pen.at(74), height - pen.at(60));
     let (left, right) = (pen.at(10), pen.at(30));
     let at = |exponent: f64| {
         bottom - (f64::from(bottom - top) * (exponent - least) / (most - least)) as i32
@@ -192,10 +193,9 @@ fn colour_bar<DB: DrawingBackend>(
         exponent += 1.0;
     }
     let head = anchored(&pen.small(), HPos::Left, VPos::Bottom);
-    area.draw(&Text::new(
-        "median impact",
-        (pen.at(4), pen.at(34)),
-        head.clone(),
-    ))?;
-    area.draw(&Text::new("in N\u{b7}m", (pen.at(4), pen.at(50)), head))
+    let lines = [words[0], words[1], "(no case: white)"].into_iter();
+    for (line, y) in lines.zip([30, 46, 62]) {
+        area.draw(&Text::new(line, (pen.at(4), pen.at(y)), head.clone()))?;
+    }
+    Ok(())
 }

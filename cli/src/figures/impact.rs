@@ -19,10 +19,12 @@ pub(crate) struct Impacts<'s> {
     pub(crate) studies: &'s [&'s Study],
     /// Whether to draw the tool force over time.
     pub(crate) with_force: bool,
+    /// Of the impacts.
+    pub(crate) unit: &'s str,
 }
 
-/// Below this, N m, a bar is not drawn any shorter.
-const FLOOR: f64 = 1e-3;
+/// Below this share of the largest value a value is rounding, and said to be 0.
+const ROUNDING: f64 = 1e-9;
 
 impl Figure for Impacts<'_> {
     fn size(&self) -> (u32, u32) {
@@ -57,9 +59,9 @@ impl Figure for Impacts<'_> {
                     .flat_map(|law| study.case(law.method).impact_after.iter().copied()),
             )
         });
-        let top = 2.0 * values.fold(FLOOR * 10.0, f64::max);
+        let scale = Scale::of(&values.collect::<Vec<_>>());
         for (study, area) in self.studies.iter().zip(areas) {
-            bars(area, pen, study, top)?;
+            bars(area, pen, study, scale, self.unit)?;
         }
         Ok(())
     }
@@ -118,18 +120,64 @@ fn force<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study) -> Drawn<
     FORCE.curve(&mut panel, pen, &asked)
 }
 
-/// A group of bars for each joint, on a logarithmic axis.
-fn bars<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study, top: f64) -> Drawn<DB> {
-    let before = &study.case(SearchMethod::PerJoint).impact_before;
+/// A logarithmic axis that shows every value but rounding.
+#[derive(Clone, Copy)]
+struct Scale {
+    /// A power of ten below the smallest value.
+    floor: f64,
+    top: f64,
+    /// Up to here a value is 0.
+    zero: f64,
+}
+
+impl Scale {
+    fn of(values: &[f64]) -> Self {
+        let largest = values.iter().copied().fold(0.0, f64::max);
+        if largest <= 0.0 {
+            return Self {
+                floor: 0.1,
+                top: 10.0,
+                zero: 0.0,
+            };
+        }
+        let zero = ROUNDING * largest;
+        let seen = values.iter().copied().filter(|value| *value > zero);
+        let least = seen.fold(largest, f64::min);
+        // The shortest bar has some height too, and the axis two decades.
+        let floor = (0.7 * least).min(0.03 * largest);
+        Self {
+            floor: 10_f64.powf(floor.log10().floor()),
+            top: 3.0 * largest,
+            zero,
+        }
+    }
+}
+
+/// A group of bars for each joint, on a logarithmic axis; where there is no impact a 0.
+fn bars<DB: DrawingBackend>(
+    area: &Area<DB>,
+    pen: Pen,
+    study: &Study,
+    scale: Scale,
+    unit: &str,
+) -> Drawn<DB> {
+    let eq16 = study.case(SearchMethod::PerJoint);
+    let before = &eq16.impact_before;
     let joints = before.len();
-    let title = format!("lock at {} s", study.failure_time);
+    let title = format!(
+        "lock at {} s; force error of Eq. 16: {} N, at worst {} N",
+        study.failure_time,
+        rounded(eq16.force_error),
+        rounded(eq16.rollout.max_force_error),
+    );
+    let label = format!("impact in {}", unit.replace("N m", "N\u{b7}m"));
     let axes = Axes {
         title: &title,
         x: ("joint", 0.5..joints as f64 + 0.5),
-        y: ("impact torque in N\u{b7}m", FLOOR..top),
+        y: (&label, scale.floor..scale.top),
     };
     let mut panel = bar_panel(area, pen, &axes)?;
-    let locked = &study.case(SearchMethod::PerJoint).failed_joints;
+    let zero = anchored(&pen.small(), HPos::Center, VPos::Bottom);
     for (joint, before) in before.iter().enumerate() {
         let after = LAWS.map(|law| {
             let case = study.case(law.method);
@@ -138,14 +186,29 @@ fn bars<DB: DrawingBackend>(area: &Area<DB>, pen: Pen, study: &Study, top: f64) 
         let group = [(*before, WITHOUT.colour)].into_iter().chain(after);
         for (i, (value, colour)) in group.enumerate() {
             let left = joint as f64 + 0.62 + 0.19 * i as f64;
-            let bar = [(left, FLOOR), (left + 0.17, value.clamp(FLOOR * 1.06, top))];
+            if value <= scale.zero {
+                let text = zero.color(&colour);
+                let at = (left + 0.085, scale.floor);
+                panel.draw_series([Text::new("0", at, text)])?;
+                continue;
+            }
+            let bar = [(left, scale.floor), (left + 0.17, value)];
             panel.draw_series([Rectangle::new(bar, colour.filled())])?;
         }
-        if locked.contains(&joint) {
-            let style = anchored(&pen.small(), HPos::Center, VPos::Bottom);
-            let at = (joint as f64 + 1.0, top / 1.7);
+        if eq16.failed_joints.contains(&joint) {
+            let style = anchored(&pen.small(), HPos::Center, VPos::Top);
+            let at = (joint as f64 + 1.0, scale.top);
             panel.draw_series([Text::new("locks", at, style)])?;
         }
     }
     Ok(())
+}
+
+/// Three digits.
+fn rounded(value: f64) -> String {
+    if value < 1e-9 {
+        return "0".to_owned();
+    }
+    let decimals = (2.0 - value.log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{value:.decimals$}")
 }

@@ -16,17 +16,17 @@ pub(super) struct Law {
 pub(super) const LAWS: [Law; 3] = [
     Law {
         method: SearchMethod::PerJoint,
-        label: "Eq. 16 (force bent)",
+        label: "Eq. 16",
         stroke: Stroke::solid(BLUE),
     },
     Law {
         method: SearchMethod::Projected,
-        label: "Eq. 20 (force kept)",
+        label: "Eq. 20",
         stroke: Stroke::dashed(ORANGE),
     },
     Law {
         method: SearchMethod::Optimal,
-        label: "optimal (force kept)",
+        label: "optimal",
         stroke: Stroke::dotted(GREEN),
     },
 ];

@@ -1,11 +1,15 @@
 //! Figures: each is drawn once and comes out as SVG and as PNG, alike.
 
+mod arm;
 mod chart;
 mod heat_map;
 mod impact;
 mod law;
 mod ratio_map;
+mod search_flow;
+mod sketch;
 mod stroke;
+mod structure;
 mod style;
 mod sweep;
 mod torque;
@@ -17,12 +21,17 @@ use std::sync::Once;
 use plotters::backend::{BitMapBackend, DrawingBackend, SVGBackend};
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
+use plotters::element::Text;
+use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontStyle, WHITE};
 
+pub(crate) use arm::Arm;
 pub(crate) use heat_map::HeatMap;
 pub(crate) use impact::Impacts;
 pub(crate) use ratio_map::RatioMaps;
-use style::Pen;
+pub(crate) use search_flow::SearchFlow;
+pub(crate) use structure::Structure;
+use style::{Pen, anchored};
 pub(crate) use sweep::FeltSteps;
 pub(crate) use torque::Torques;
 pub(crate) use tradeoff::Tradeoffs;
@@ -42,16 +51,25 @@ pub(crate) trait Figure {
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB>;
 }
 
-/// A figure as SVG.
-pub(crate) fn svg(figure: &impl Figure) -> anyhow::Result<String> {
+/// The height of the line below a figure, CSS pixels.
+const FOOTER: u32 = 22;
+
+/// Width and height of a figure with the line below it.
+fn whole(figure: &impl Figure) -> (u32, u32) {
+    let (width, height) = figure.size();
+    (width, height + FOOTER)
+}
+
+/// A figure as SVG, with a line below it that says what it is of.
+pub(crate) fn svg(figure: &impl Figure, footer: &str) -> anyhow::Result<String> {
     load_fonts();
     // The backend's coordinates are whole numbers: whole pixels would make steps of curves.
     let pen = Pen { scale: 16 };
-    let (width, height) = figure.size();
+    let (width, height) = whole(figure);
     let (fine_width, fine_height) = (width * pen.scale, height * pen.scale);
     let mut text = String::new();
     let area = SVGBackend::with_string(&mut text, (fine_width, fine_height)).into_drawing_area();
-    draw(figure, &area, pen)?;
+    draw(figure, footer, &area, pen)?;
     drop(area);
     let fine = format!("width=\"{fine_width}\" height=\"{fine_height}\"");
     let size = format!("width=\"{width}\" height=\"{height}\"");
@@ -60,15 +78,15 @@ pub(crate) fn svg(figure: &impl Figure) -> anyhow::Result<String> {
     Ok(text.replace("<rect ", "<rect shape-rendering=\"crispEdges\" "))
 }
 
-/// A figure as PNG, at twice the resolution.
-pub(crate) fn png(figure: &impl Figure) -> anyhow::Result<Vec<u8>> {
+/// The same as PNG, at twice the resolution.
+pub(crate) fn png(figure: &impl Figure, footer: &str) -> anyhow::Result<Vec<u8>> {
     load_fonts();
     let pen = Pen { scale: 2 };
-    let (width, height) = figure.size();
+    let (width, height) = whole(figure);
     let (width, height) = (width * pen.scale, height * pen.scale);
     let mut pixels = vec![0; (width * height * 3) as usize];
     let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
-    draw(figure, &area, pen)?;
+    draw(figure, footer, &area, pen)?;
     drop(area);
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, width, height);
@@ -78,10 +96,19 @@ pub(crate) fn png(figure: &impl Figure) -> anyhow::Result<Vec<u8>> {
     Ok(file)
 }
 
-fn draw<DB: DrawingBackend>(figure: &impl Figure, area: &Area<DB>, pen: Pen) -> anyhow::Result<()> {
+fn draw<DB: DrawingBackend>(
+    figure: &impl Figure,
+    footer: &str,
+    area: &Area<DB>,
+    pen: Pen,
+) -> anyhow::Result<()> {
+    let (body, foot) = area.split_vertically(area.dim_in_pixel().1 - pen.px(FOOTER));
+    let style = anchored(&pen.footer(), HPos::Left, VPos::Center);
+    let line = Text::new(footer.to_owned(), (pen.at(8), pen.at(10)), style);
     let drawn = area
         .fill(&WHITE)
-        .and_then(|()| figure.draw(area, pen))
+        .and_then(|()| figure.draw(&body, pen))
+        .and_then(|()| foot.draw(&line))
         .and_then(|()| area.present());
     // The backend's own error need not outlive the drawing; its text is enough.
     drawn.map_err(|error| anyhow::anyhow!("a figure cannot be drawn: {error}"))

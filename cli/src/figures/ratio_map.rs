@@ -76,6 +76,16 @@ impl<'a> RatioMaps<'a> {
         }
     }
 
+    /// What stands below the figure.
+    pub(crate) fn footer(&self) -> String {
+        let mut footer = format!("{}; grey: the lock makes no step", self.caption);
+        if self.pairs() {
+            let names: Vec<_> = self.locks.iter().map(|lock| name(lock)).collect();
+            footer.push_str(&format!("; pairs from below: {}", names.join(" ")));
+        }
+        footer
+    }
+
     fn rows(&self) -> usize {
         self.laws.len().div_ceil(COLUMNS)
     }
@@ -103,13 +113,12 @@ fn colour(ratio: f64) -> RGBColor {
 impl Figure for RatioMaps<'_> {
     fn size(&self) -> (u32, u32) {
         let panel = if self.pairs() { 300 } else { 210 };
-        (1200, 40 + panel * self.rows() as u32)
+        (1200, panel * self.rows() as u32)
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
-        let (width, height) = area.dim_in_pixel();
+        let (width, _) = area.dim_in_pixel();
         let (body, side) = area.split_horizontally(width - pen.px(110));
-        let (body, foot) = body.split_vertically(height - pen.px(30));
         let spacing = match self.times {
             [first, second, ..] => second - first,
             [only] => *only,
@@ -145,14 +154,6 @@ impl Figure for RatioMaps<'_> {
             });
             panel.draw_series(cells)?;
         }
-        let style = anchored(&pen.small(), HPos::Left, VPos::Center);
-        let mut caption = self.caption.clone();
-        caption.push_str("; grey: the lock makes no step");
-        if self.pairs() {
-            let names: Vec<_> = self.locks.iter().map(|lock| name(lock)).collect();
-            caption.push_str(&format!("; pairs from below: {}", names.join(" ")));
-        }
-        foot.draw(&Text::new(caption, (pen.at(12), pen.at(14)), style))?;
         scale(&side, pen)
     }
 }

@@ -15,6 +15,7 @@ pub(super) const FONT: &str = "sans-serif";
 
 // Okabe and Ito (2008): told apart by all common kinds of colour vision.
 pub(super) const BLACK: RGBColor = RGBColor(0, 0, 0);
+pub(super) const WHITE: RGBColor = RGBColor(255, 255, 255);
 pub(super) const GREY: RGBColor = RGBColor(120, 120, 120);
 pub(super) const BLUE: RGBColor = RGBColor(0, 114, 178);
 pub(super) const ORANGE: RGBColor = RGBColor(230, 159, 0);
@@ -51,6 +52,16 @@ impl Pen {
     /// Text of ticks.
     pub(super) fn small(self) -> TextStyle<'static> {
         self.font(FontStyle::Normal, 12, BLACK)
+    }
+
+    /// Text on bars.
+    pub(super) fn tiny(self) -> TextStyle<'static> {
+        self.font(FontStyle::Normal, 9, BLACK)
+    }
+
+    /// Text below a figure.
+    pub(super) fn footer(self) -> TextStyle<'static> {
+        self.font(FontStyle::Normal, 11, GREY)
     }
 
     /// Text above a panel.

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use ulna_study::experiment::{Case, Study, Truth};
 
+use super::force::Asked;
 use super::words::{name, solve_status, status};
 use crate::rows::file;
 
@@ -19,12 +20,18 @@ struct Impact<'s> {
     suppression_percent: f64,
     coefficient: f64,
     max_torque: f64,
+    force_error_at_lock: f64,
+    max_force_error: f64,
+    asked_force_at_lock: f64,
+    max_asked_force: f64,
 }
 
-pub(super) fn impacts<'s>(cases: impl Iterator<Item = &'s Case>) -> anyhow::Result<String> {
-    file(cases.flat_map(|case| {
+pub(super) fn impacts<'s>(
+    cases: impl Iterator<Item = (&'s Case, Asked)>,
+) -> anyhow::Result<String> {
+    file(cases.flat_map(|(case, asked)| {
         let suppression = case.suppression_percent().into_iter().enumerate();
-        suppression.map(|(joint, suppression_percent)| Impact {
+        suppression.map(move |(joint, suppression_percent)| Impact {
             section: &case.section,
             failure_time: case.failure_time,
             method: name(case.method),
@@ -35,6 +42,10 @@ pub(super) fn impacts<'s>(cases: impl Iterator<Item = &'s Case>) -> anyhow::Resu
             suppression_percent,
             coefficient: case.coefficients[joint],
             max_torque: case.rollout.max_torque[joint],
+            force_error_at_lock: case.force_error,
+            max_force_error: case.rollout.max_force_error,
+            asked_force_at_lock: asked.at_lock,
+            max_asked_force: asked.most,
         })
     }))
 }
@@ -53,11 +64,15 @@ struct Search<'s> {
     healthy_after: f64,
     force_error_at_lock: f64,
     max_force_error: f64,
+    asked_force_at_lock: f64,
+    max_asked_force: f64,
     status: String,
 }
 
-pub(super) fn searches<'s>(cases: impl Iterator<Item = &'s Case>) -> anyhow::Result<String> {
-    file(cases.map(|case| {
+pub(super) fn searches<'s>(
+    cases: impl Iterator<Item = (&'s Case, Asked)>,
+) -> anyhow::Result<String> {
+    file(cases.map(|(case, asked)| {
         let search = case.search.as_ref().ok();
         let (healthy_before, healthy_after) = case.healthy_impact();
         Search {
@@ -72,6 +87,8 @@ pub(super) fn searches<'s>(cases: impl Iterator<Item = &'s Case>) -> anyhow::Res
             healthy_after,
             force_error_at_lock: case.force_error,
             max_force_error: case.rollout.max_force_error,
+            asked_force_at_lock: asked.at_lock,
+            max_asked_force: asked.most,
             status: status(case),
         }
     }))

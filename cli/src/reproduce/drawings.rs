@@ -3,11 +3,16 @@
 use rayon::prelude::*;
 use ulna::JointKind;
 use ulna_study::Scenario;
-use ulna_study::experiment::{Study, Truth};
+use ulna_study::experiment::{LockMechanics, Study, Truth};
 use ulna_study::scenario::{Experiment, FigureKind};
+use ulna_study::search::Stepwise;
 
 use super::Findings;
-use crate::figures::{self, Convergence, Figure, Impacts, SimulatedTorques, Torques, Tradeoffs};
+use super::words::{impact_unit, what_locks};
+use crate::figures::{
+    self, Arm, Convergence, Figure, Impacts, SearchFlow, SimulatedTorques, Structure, Torques,
+    Tradeoffs,
+};
 use crate::output::Files;
 
 /// A figure's name, its SVG and its PNG.
@@ -27,13 +32,14 @@ pub(super) fn add(
         .collect();
     let of_experiments = scenario.experiments().par_iter().map(|experiment| {
         let studies = findings.of_section(experiment);
-        draw(experiment, &studies, &kinds)
+        draw(scenario, experiment, &studies, &kinds)
     });
     let of_truth = rayon::iter::once(&findings.truths).map(|truths| match truths {
-        Ok(truths) => draw_truth(truths, &kinds),
+        Ok(truths) => draw_truth(scenario, truths, &kinds),
         Err(_) => Ok(Vec::new()),
     });
-    let drawn = of_experiments.chain(of_truth);
+    let of_arm = rayon::iter::once(()).map(|()| draw_arm(scenario, findings));
+    let drawn = of_experiments.chain(of_truth).chain(of_arm);
     for (name, svg, png) in drawn.collect::<anyhow::Result<Vec<_>>>()?.concat() {
         files.add(format!("figures/{name}.svg"), svg);
         files.add(format!("figures/{name}.png"), png);
@@ -41,41 +47,84 @@ pub(super) fn add(
     Ok(())
 }
 
+/// What a figure is of: the line below it.
+pub(super) fn footer(scenario: &Scenario, section: Option<&str>) -> String {
+    let experiment = section.map_or_else(String::new, |section| format!(", experiment {section}"));
+    format!(
+        "arm {}, scenario {}, {}{experiment}",
+        scenario.arm().name(),
+        scenario.name(),
+        what_locks(scenario)
+    )
+}
+
 fn draw(
+    scenario: &Scenario,
     experiment: &Experiment,
     studies: &[&Study],
     kinds: &[JointKind],
 ) -> anyhow::Result<Vec<Drawing>> {
     let mut drawings = Vec::new();
+    let footer = footer(scenario, Some(experiment.section()));
     for figure in experiment.figures() {
         let name = figure.name().to_owned();
         match figure.kind() {
             FigureKind::Torque { joints, time } => {
                 let study = studies.iter().find(|study| study.failure_time == *time);
                 if let Some(study) = study {
-                    drawings.push(both(
-                        name,
-                        &Torques {
-                            study,
-                            joints,
-                            kinds,
-                        },
-                    )?);
+                    let torques = Torques {
+                        study,
+                        joints,
+                        kinds,
+                    };
+                    drawings.push(both(name, &torques, &footer)?);
                 }
             }
             FigureKind::Impact => {
                 let with_force = !experiment.force().is_constant();
-                drawings.push(both(
-                    name,
-                    &Impacts {
-                        studies,
-                        with_force,
-                    },
-                )?);
+                let impacts = Impacts {
+                    studies,
+                    with_force,
+                    unit: impact_unit(scenario.arm().joints()),
+                };
+                drawings.push(both(name, &impacts, &footer)?);
             }
         }
     }
-    drawings.push(both(frontier_name(experiment), &Tradeoffs { studies })?);
+    let tradeoffs = Tradeoffs { studies };
+    drawings.push(both(frontier_name(experiment), &tradeoffs, &footer)?);
+    Ok(drawings)
+}
+
+/// The files of the arm, of the search, and of what the lock loads the structure with.
+pub(super) const HEALTHY_ARM: &str = "arm-healthy";
+pub(super) const LOCKED_ARM: &str = "arm-locked";
+pub(super) const SEARCH: &str = "search-in-steps";
+pub(super) const STRUCTURE: &str = "structure";
+
+/// The failure time that is drawn where there is room for one: the middle one of the list.
+pub(super) fn drawn_lock(findings: &Findings) -> Option<&LockMechanics> {
+    findings.locks.get(findings.locks.len() / 2)
+}
+
+/// What depends on the arm and its motion alone.
+fn draw_arm(scenario: &Scenario, findings: &Findings) -> anyhow::Result<Vec<Drawing>> {
+    let footer = footer(scenario, None);
+    let flow = SearchFlow {
+        grid: scenario.search(),
+        joints: scenario.arm().joints().len(),
+        most: Stepwise::<1>::with_step(scenario.search().step()).max_steps,
+    };
+    let locks = &findings.locks;
+    let mut drawings = vec![
+        both(SEARCH.to_owned(), &flow, &footer)?,
+        both(STRUCTURE.to_owned(), &Structure { locks }, &footer)?,
+    ];
+    if let Some(lock) = drawn_lock(findings) {
+        for (name, locked) in [(HEALTHY_ARM, false), (LOCKED_ARM, true)] {
+            drawings.push(both(name.to_owned(), &Arm { lock, locked }, &footer)?);
+        }
+    }
     Ok(drawings)
 }
 
@@ -85,7 +134,11 @@ pub(super) const SIMULATED: &str = "simulated-lock";
 pub(super) const CONVERGENCE: &str = "ever-shorter-brakes";
 
 /// The lock at the middle one of the failure times, and the limit of ever shorter brakes.
-fn draw_truth(truths: &[Truth], kinds: &[JointKind]) -> anyhow::Result<Vec<Drawing>> {
+fn draw_truth(
+    scenario: &Scenario,
+    truths: &[Truth],
+    kinds: &[JointKind],
+) -> anyhow::Result<Vec<Drawing>> {
     let Some(truth) = truths.get(truths.len() / 2) else {
         return Ok(Vec::new());
     };
@@ -95,9 +148,10 @@ fn draw_truth(truths: &[Truth], kinds: &[JointKind]) -> anyhow::Result<Vec<Drawi
         joints: &joints,
         kinds,
     };
+    let footer = footer(scenario, Some(&truth.section));
     Ok(vec![
-        both(SIMULATED.to_owned(), &lock)?,
-        both(CONVERGENCE.to_owned(), &Convergence { truths })?,
+        both(SIMULATED.to_owned(), &lock, &footer)?,
+        both(CONVERGENCE.to_owned(), &Convergence { truths }, &footer)?,
     ])
 }
 
@@ -124,6 +178,7 @@ pub(super) fn frontier_name(experiment: &Experiment) -> String {
     format!("frontier-{}", experiment.section())
 }
 
-fn both(name: String, figure: &impl Figure) -> anyhow::Result<Drawing> {
-    Ok((name, figures::svg(figure)?, figures::png(figure)?))
+fn both(name: String, figure: &impl Figure, footer: &str) -> anyhow::Result<Drawing> {
+    let (svg, png) = (figures::svg(figure, footer)?, figures::png(figure, footer)?);
+    Ok((name, svg, png))
 }

@@ -5,22 +5,23 @@ use std::io::{self, Write};
 use comfy_table::Table;
 use serde::Serialize;
 use ulna_study::experiment::{BoundSide, LimitedJoint, LimitedSuppression};
-use ulna_study::scenario::{Experiment, Reference};
+use ulna_study::scenario::{Experiment, Reference, Scenario};
 
-use super::table::reference_at;
+use super::references::reference_at;
 use super::words::{joints_named, significant};
 use crate::columns::plain;
 use crate::rows::file;
 
 /// A table for each failure time at which the rated torques cut something, or of which a reference has figures.
 pub(super) fn write(
+    scenario: &Scenario,
     experiment: &Experiment,
     found: &[LimitedSuppression],
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let section = experiment.section();
     for found in found.iter().filter(|found| found.section == section) {
-        let reference = reference_at(experiment, found.failure_time);
+        let reference = reference_at(scenario, experiment, found.failure_time);
         let reference = reference.filter(|reference| has_figures(reference));
         if reference.is_none() && found.joints.iter().all(|joint| joint.bound.is_none()) {
             continue;

@@ -2,12 +2,16 @@
 
 mod ablation;
 mod bounds;
+mod coefficients;
 mod csv;
 mod drawings;
+mod force;
 mod limited;
 mod page;
 mod plan_steps;
+mod references;
 mod results;
+mod structure;
 mod table;
 mod verdict;
 pub(crate) mod words;
@@ -18,16 +22,19 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use rayon::prelude::*;
+use ulna::SerialChain;
 use ulna_study::Scenario;
 use ulna_study::experiment::{
-    Ablation, AnyArm, ExperimentError, ExperimentRunner, LimitedSuppression, PlanSteps, Study,
-    Sweep, Truth,
+    Ablation, AnyArm, ExperimentError, ExperimentRunner, LimitedSuppression, LockMechanics,
+    PlanSteps, Study, Sweep, Truth, lock_mechanics,
 };
 use ulna_study::scenario::{Experiment, ScenarioErrors};
 
-use crate::arms::{ForArm, GENERATED, with_arm};
+use crate::arms::{ForArm, GENERATED, with_arm, with_chain_of};
+use crate::joints::ForChain;
 use crate::output::{self, Files};
 use crate::{Verdict, console};
+use force::Asked;
 
 /// The scenario that is repeated when none is named; compiled in, so that the program needs no repository.
 const PAPER_LIKE: &str = include_str!("../../scenarios/paper_like.toml");
@@ -60,7 +67,8 @@ impl Default for Arguments {
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let scenario = scenario(arguments.scenario.as_deref())?;
     output::check_folder(&arguments.output)?;
-    let findings = with_arm(scenario.arm(), Findings::of(&scenario))??;
+    let locks = with_chain_of(scenario.arm(), Locks(&scenario))??;
+    let findings = with_arm(scenario.arm(), Findings::of(&scenario, locks))??;
     table::write(&scenario, &findings, out)?;
     ablation::write(&findings.ablations, out)?;
     out.flush()?;
@@ -69,7 +77,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     results::add(&mut files, &scenario, &findings)?;
     ablation::add(&mut files, &findings.ablations)?;
     drawings::add(&mut files, &scenario, &findings)?;
-    verdict::add(&mut files, &findings)?;
+    verdict::add(&mut files, &scenario, &findings)?;
     let written = files.write_to(&arguments.output)?;
     console::note(&format!(
         "wrote {} files to {}; {PAGE} says what was found",
@@ -106,6 +114,8 @@ struct Findings {
     ablations: Vec<Ablation>,
     /// The same with other servos and rotors.
     sweeps: Result<Vec<Sweep>, ExperimentError>,
+    /// The arm as a mechanism, at every failure time.
+    locks: Vec<LockMechanics>,
 }
 
 impl Findings {
@@ -117,43 +127,72 @@ impl Findings {
             .collect()
     }
 
+    /// What the tool is to exert in a study of `experiment`.
+    fn asked(&self, experiment: &Experiment, study: &Study) -> Asked {
+        Asked::of(experiment, study, &self.locks)
+    }
+
     /// The work that leads to the findings.
-    fn of(scenario: &Scenario) -> Work<'_> {
-        Work(scenario)
+    fn of(scenario: &Scenario, locks: Vec<LockMechanics>) -> Work<'_> {
+        Work { scenario, locks }
     }
 }
 
-struct Work<'s>(&'s Scenario);
+struct Locks<'s>(&'s Scenario);
+
+impl ForChain for Locks<'_> {
+    type Output = Result<Vec<LockMechanics>, ExperimentError>;
+
+    fn run<const N: usize>(self, chain: &SerialChain<N>) -> Self::Output {
+        lock_mechanics(chain, self.0)
+    }
+}
+
+struct Work<'s> {
+    scenario: &'s Scenario,
+    locks: Vec<LockMechanics>,
+}
 
 impl ForArm for Work<'_> {
     type Output = Result<Findings, ExperimentError>;
 
     fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
-        let runner = ExperimentRunner::new(arm, self.0)?;
+        let runner = ExperimentRunner::new(arm, self.scenario)?;
         let study = |experiment: &Experiment, time| runner.study(experiment, time);
         let truth = |experiment: &Experiment, time| runner.truth(experiment, time);
         let limited = |experiment: &Experiment, time| runner.limited(experiment, time);
-        let plan_steps = runner.plan_steps(&self.0.experiments()[0]);
         let ablation = |experiment: &Experiment, time| runner.ablation(experiment, time);
         let sweep = |experiment: &Experiment, time| runner.sweep(experiment, time);
-        explore(
-            self.0, plan_steps, &study, &truth, &limited, &ablation, &sweep,
-        )
+        let attempts = Attempts {
+            study: &study,
+            truth: &truth,
+            limited: &limited,
+            ablation: &ablation,
+            sweep: &sweep,
+        };
+        let plan_steps = runner.plan_steps(&self.scenario.experiments()[0]);
+        explore(self.scenario, plan_steps, self.locks, &attempts)
     }
 }
 
 /// One experiment with the failure at one time, s.
 type Attempt<'l, T> = dyn Fn(&Experiment, f64) -> Result<T, ExperimentError> + Sync + 'l;
 
-/// Everything that is asked of a runner, side by side. Apart from it, so that this is not compiled for each number of joints.
+/// Everything that is asked of a runner.
+struct Attempts<'l> {
+    study: &'l Attempt<'l, Study>,
+    truth: &'l Attempt<'l, Truth>,
+    limited: &'l Attempt<'l, Option<LimitedSuppression>>,
+    ablation: &'l Attempt<'l, Ablation>,
+    sweep: &'l Attempt<'l, Sweep>,
+}
+
+/// Asks it, side by side. Apart from the runner, so that this is not compiled for each number of joints.
 fn explore(
     scenario: &Scenario,
     plan_steps: PlanSteps,
-    study: &Attempt<'_, Study>,
-    truth: &Attempt<'_, Truth>,
-    limited: &Attempt<'_, Option<LimitedSuppression>>,
-    ablation: &Attempt<'_, Ablation>,
-    sweep: &Attempt<'_, Sweep>,
+    locks: Vec<LockMechanics>,
+    ask: &Attempts<'_>,
 ) -> Result<Findings, ExperimentError> {
     let (experiments, failure_times) = (scenario.experiments(), scenario.failure_times());
     let pairs = experiments.iter().flat_map(|experiment| {
@@ -164,26 +203,23 @@ fn explore(
     let pairs: Vec<_> = pairs.collect();
     let limited = pairs
         .par_iter()
-        .filter_map(|(experiment, time)| limited(experiment, *time).transpose());
+        .filter_map(|(experiment, time)| (ask.limited)(experiment, *time).transpose());
     let limited = limited.collect::<Result<_, _>>()?;
     let studies = pairs
         .into_par_iter()
-        .map(|(experiment, time)| study(experiment, time));
-    let truths = failure_times
-        .par_iter()
-        .map(|time| truth(&experiments[0], *time));
-    let ablations = failure_times
-        .par_iter()
-        .map(|time| ablation(&experiments[0], *time));
-    let sweeps = failure_times
-        .par_iter()
-        .map(|time| sweep(&experiments[0], *time));
+        .map(|(experiment, time)| (ask.study)(experiment, time));
+    let first = &experiments[0];
+    let times = failure_times.par_iter();
+    let truths = times.clone().map(|time| (ask.truth)(first, *time));
+    let ablations = times.clone().map(|time| (ask.ablation)(first, *time));
+    let sweeps = times.map(|time| (ask.sweep)(first, *time));
     Ok(Findings {
         ablations: ablations.collect::<Result<_, _>>()?,
         studies: studies.collect::<Result<_, _>>()?,
         truths: truths.collect(),
+        sweeps: sweeps.collect(),
         plan_steps,
         limited,
-        sweeps: sweeps.collect(),
+        locks,
     })
 }

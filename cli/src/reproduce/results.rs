@@ -4,8 +4,9 @@ use serde::Serialize;
 use ulna_study::Scenario;
 use ulna_study::experiment::Case;
 
+use super::force::Asked;
 use super::words::{name, status};
-use super::{Findings, csv, limited, plan_steps};
+use super::{Findings, csv, limited, plan_steps, structure};
 use crate::output::Files;
 
 /// `results.json`. Its cases are the exact ones; those of the search in steps are in `search.csv` and `impact.csv`.
@@ -31,7 +32,11 @@ struct ResultCase<'s> {
     suppression_percent: Vec<f64>,
     /// k_d. The optimal law has none: for it those of Eq. 16 that would change each joint's step at the lock alike.
     coefficients: &'s [f64],
+    force_error_at_lock: f64,
     max_force_error: f64,
+    /// What the tool is to exert, in the components of the task.
+    asked_force_at_lock: f64,
+    max_asked_force: f64,
     max_torque: &'s [f64],
     status: String,
 }
@@ -62,12 +67,21 @@ pub(super) fn add(
     findings: &Findings,
 ) -> anyhow::Result<()> {
     let studies = &findings.studies;
-    let cases = studies.iter().flat_map(|study| &study.cases);
-    let exact = cases.clone().filter(|case| !case.method.is_stepwise());
+    let cases = scenario.experiments().iter().flat_map(|experiment| {
+        let studies = findings.of_section(experiment).into_iter();
+        studies.flat_map(|study| {
+            let asked = findings.asked(experiment, study);
+            study.cases.iter().map(move |case| (case, asked))
+        })
+    });
+    let exact = cases.clone().filter(|(case, _)| !case.method.is_stepwise());
     let results = Results {
         arm: scenario.arm().name(),
         scenario: scenario.name(),
-        cases: exact.clone().map(result).collect(),
+        cases: exact
+            .clone()
+            .map(|(case, asked)| result(case, asked))
+            .collect(),
     };
     let mut json = serde_json::to_vec_pretty(&results)?;
     json.push(b'\n');
@@ -77,11 +91,12 @@ pub(super) fn add(
     files.add("frontier.csv", csv::frontiers(studies)?);
     files.add("limits.csv", limited::csv(&findings.limited)?);
     files.add("plan_steps.csv", plan_steps::csv(&findings.plan_steps)?);
+    files.add("structure.csv", structure::csv(&findings.locks)?);
     if let Ok(truths) = &findings.truths {
-        files.add("truth.csv", csv::truth(truths)?);
+        files.add("simulation.csv", csv::truth(truths)?);
         files.add("convergence.csv", csv::convergence(truths)?);
     }
-    for case in exact {
+    for (case, _) in exact {
         let Case {
             section,
             failure_time,
@@ -94,7 +109,7 @@ pub(super) fn add(
     Ok(())
 }
 
-fn result(case: &Case) -> ResultCase<'_> {
+fn result(case: &Case, asked: Asked) -> ResultCase<'_> {
     ResultCase {
         section: &case.section,
         law: name(case.method),
@@ -105,7 +120,10 @@ fn result(case: &Case) -> ResultCase<'_> {
         impact_after: &case.impact_after,
         suppression_percent: case.suppression_percent(),
         coefficients: &case.coefficients,
+        force_error_at_lock: case.force_error,
         max_force_error: case.rollout.max_force_error,
+        asked_force_at_lock: asked.at_lock,
+        max_asked_force: asked.most,
         max_torque: &case.rollout.max_torque,
         status: status(case),
     }

@@ -4,10 +4,13 @@ use std::io::{self, Write};
 
 use comfy_table::Table;
 use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
-use ulna_study::scenario::{Experiment, Reference, Scenario};
+use ulna_study::scenario::{Reference, Scenario};
 
-use super::words::{name, seconds, significant, solve_status, what_locks};
-use super::{Findings, bounds, limited, plan_steps, verdict, worse};
+use super::coefficients::coefficients;
+use super::force::Asked;
+use super::references::{self, reference_at};
+use super::words::{impact_unit, name, seconds, significant, solve_status, what_locks};
+use super::{Findings, bounds, limited, plan_steps, structure, verdict, worse};
 use crate::columns::plain;
 
 /// Columns of a table of impacts, one for each method.
@@ -29,7 +32,7 @@ pub(super) fn write(
         writeln!(out, "\n{} {}", experiment.section(), experiment.title())?;
         let studies = findings.of_section(experiment);
         for study in &studies {
-            let reference = reference_at(experiment, study.failure_time);
+            let reference = reference_at(scenario, experiment, study.failure_time);
             // Some references have coefficients alone.
             let reference = reference.filter(|reference| {
                 let mut figures = reference.before().iter().chain(reference.after());
@@ -37,23 +40,30 @@ pub(super) fn write(
             });
             writeln!(
                 out,
-                "\nimpact torque in N m at {} s{}",
+                "\nimpact torque in {} at {} s{}",
+                impact_unit(scenario.arm().joints()),
                 study.failure_time,
                 beside(reference)
             )?;
-            writeln!(out, "{}", impacts(scenario, study, reference))?;
+            let asked = findings.asked(experiment, study);
+            writeln!(out, "{}", impacts(scenario, study, reference, asked))?;
             for (method, title) in METHODS {
                 if let Err(error) = &study.case(method).search {
-                    writeln!(out, " {title}: {error}")?;
+                    writeln!(
+                        out,
+                        " {title}: {error}; its column is the motion without compensation, cut to the rated torques"
+                    )?;
                 }
             }
             worse::write(study, &METHODS, out)?;
         }
-        let exponent = exponent(&studies);
-        writeln!(out, "\ncoefficients k_d of Eq. 16, in 1e{exponent}")?;
-        writeln!(out, "{}", coefficients(experiment, &studies, exponent))?;
+        writeln!(out, "\ncoefficients k_d of Eq. 16")?;
+        writeln!(out, "{}", coefficients(scenario, experiment, &studies))?;
+        for note in references::notes(scenario, experiment) {
+            writeln!(out, "{note}")?;
+        }
         bounds::write(&studies, out)?;
-        limited::write(experiment, &findings.limited, out)?;
+        limited::write(scenario, experiment, &findings.limited, out)?;
     }
     if let Some(experiment) = scenario.experiments().first() {
         writeln!(out, "\nsearches for {}", experiment.section())?;
@@ -63,6 +73,14 @@ pub(super) fn write(
     if let Ok(sweeps) = &findings.sweeps {
         let (heading, table) = (verdict::heading(sweeps), verdict::table(sweeps));
         writeln!(out, "\n{heading}\n{table}")?;
+    }
+    for lock in &findings.locks {
+        writeln!(
+            out,
+            "\nload of the structure by the lock at {} s (Eq. 8-11), after minus before, in joint axes",
+            lock.failure_time
+        )?;
+        writeln!(out, "{}", structure::table(lock))?;
     }
     if let Ok(truths) = &findings.truths {
         writeln!(
@@ -88,14 +106,6 @@ fn heading(scenario: &Scenario) -> String {
     )
 }
 
-/// The reference for a failure time.
-pub(super) fn reference_at(experiment: &Experiment, time: f64) -> Option<&Reference> {
-    experiment
-        .references()
-        .iter()
-        .find(|reference| reference.time() == time)
-}
-
 fn beside(reference: Option<&Reference>) -> String {
     reference.map_or_else(String::new, |reference| {
         format!("; beside it: {}", reference.source())
@@ -103,7 +113,12 @@ fn beside(reference: Option<&Reference>) -> String {
 }
 
 /// A row for each joint; below them what concerns all.
-fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) -> String {
+fn impacts(
+    scenario: &Scenario,
+    study: &Study,
+    reference: Option<&Reference>,
+    asked: Asked,
+) -> String {
     let beside = |figure: fn(&Reference, usize) -> Option<f64>, joint: usize| {
         reference.map(|reference| figure(reference, joint).map_or_else(String::new, significant))
     };
@@ -153,6 +168,7 @@ fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) ->
             per_method(&|case| significant(case.impact_after[joint])),
         ));
     }
+    let of_asked = |asked: f64| format!(", N ({} asked)", significant(asked));
     let (healthy, _) = study.case(SearchMethod::PerJoint).healthy_impact();
     table.add_row(row(
         "norm, healthy joints".into(),
@@ -161,76 +177,18 @@ fn impacts(scenario: &Scenario, study: &Study, reference: Option<&Reference>) ->
         per_method(&|case| significant(case.healthy_impact().1)),
     ));
     table.add_row(row(
-        "force error at the lock, N".into(),
+        format!("force error at the lock{}", of_asked(asked.at_lock)),
         significant(0.0),
         [blank(), blank()],
         per_method(&|case| significant(case.force_error)),
     ));
     table.add_row(row(
-        "force error at worst, N".into(),
+        format!("force error at worst{}", of_asked(asked.most)),
         significant(0.0),
         [blank(), blank()],
         per_method(&|case| significant(case.rollout.max_force_error)),
     ));
     plain(table, &[0])
-}
-
-/// The power of ten that leaves the largest coefficient of Eq. 16 one digit before the point.
-fn exponent(studies: &[&Study]) -> i32 {
-    let coefficients = studies
-        .iter()
-        .flat_map(|study| &study.case(SearchMethod::PerJoint).coefficients);
-    let largest = coefficients.fold(0.0_f64, |largest, k| largest.max(k.abs()));
-    if largest > 0.0 {
-        largest.log10().floor() as i32
-    } else {
-        0
-    }
-}
-
-/// A row for each failure time and source, a column for each joint; in units of 10 to the `exponent`.
-fn coefficients(experiment: &Experiment, studies: &[&Study], exponent: i32) -> String {
-    let mut table = Table::new();
-    let joints = studies.first().map_or(0, |study| {
-        study.case(SearchMethod::PerJoint).coefficients.len()
-    });
-    let titles = (1..=joints).map(|joint| format!("k_d{joint}"));
-    table.set_header(
-        ["at".to_owned(), "found".to_owned()]
-            .into_iter()
-            .chain(titles),
-    );
-    let cell = |value: f64| {
-        let text = format!("{:.2}", value / 10_f64.powi(exponent));
-        if text == "-0.00" {
-            "0.00".to_owned()
-        } else {
-            text
-        }
-    };
-    for study in studies {
-        let time = format!("{} s", study.failure_time);
-        for (method, title) in [
-            (SearchMethod::StepwisePerJoint, "in steps"),
-            (SearchMethod::PerJoint, "exactly"),
-        ] {
-            let values = study.case(method).coefficients.iter();
-            let cells = values.map(|value| cell(*value));
-            table.add_row([time.clone(), title.to_owned()].into_iter().chain(cells));
-        }
-        if let Some(reference) = reference_at(experiment, study.failure_time)
-            && reference.coefficients().iter().any(Option::is_some)
-        {
-            let values = reference.coefficients().iter();
-            let cells = values.map(|value| value.map_or_else(String::new, cell));
-            table.add_row(
-                [time, reference.source().to_owned()]
-                    .into_iter()
-                    .chain(cells),
-            );
-        }
-    }
-    plain(table, &[1])
 }
 
 /// A row for each search: what it took, and what it left.
@@ -243,6 +201,8 @@ fn searches(studies: &[&Study]) -> String {
         "steps",
         "microseconds",
         "norm left, N m",
+        "force error at the lock, N",
+        "at worst, N",
     ]);
     for case in studies.iter().flat_map(|study| &study.cases) {
         let (ended, steps, time) = match &case.search {
@@ -260,6 +220,8 @@ fn searches(studies: &[&Study]) -> String {
             steps,
             time,
             significant(case.healthy_impact().1),
+            significant(case.force_error),
+            significant(case.rollout.max_force_error),
         ]);
     }
     plain(table, &[1, 2])

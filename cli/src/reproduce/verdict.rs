@@ -4,7 +4,10 @@ use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
 use ulna_study::experiment::{LockVerdict, SearchMethod, Sweep, Truth, Verdict};
 
+use ulna_study::Scenario;
+
 use super::Findings;
+use super::drawings::footer;
 use super::words::{name, significant};
 use crate::figures::{self, FeltSteps};
 use crate::output::Files;
@@ -176,14 +179,25 @@ fn verdicts(sweeps: &[Sweep]) -> anyhow::Result<String> {
 }
 
 /// The CSV files and the figure.
-pub(super) fn add(files: &mut Files, findings: &Findings) -> anyhow::Result<()> {
+pub(super) fn add(
+    files: &mut Files,
+    scenario: &Scenario,
+    findings: &Findings,
+) -> anyhow::Result<()> {
     let Ok(sweeps) = &findings.sweeps else {
         return Ok(());
     };
     files.add("sweep.csv", points(sweeps)?);
     files.add("verdict.csv", verdicts(sweeps)?);
     let figure = FeltSteps::new(sweeps);
-    files.add(format!("figures/{FIGURE}.svg"), figures::svg(&figure)?);
-    files.add(format!("figures/{FIGURE}.png"), figures::png(&figure)?);
+    let footer = footer(scenario, sweeps.first().map(|sweep| sweep.section.as_str()));
+    files.add(
+        format!("figures/{FIGURE}.svg"),
+        figures::svg(&figure, &footer)?,
+    );
+    files.add(
+        format!("figures/{FIGURE}.png"),
+        figures::png(&figure, &footer)?,
+    );
     Ok(())
 }

@@ -1,9 +1,11 @@
 //! Numbers, joints and findings as text.
 
-use ulna::Status;
+use ulna::{Joint, JointKind, Status};
 use ulna_study::Scenario;
 use ulna_study::experiment::{Case, SearchMethod};
 use ulna_study::search::SolveStatus;
+
+pub(super) use crate::numbers::significant;
 
 /// "joint 2", "joints 1, 2 and 4" or "no joint": `joints` count from 0, names from 1.
 pub(crate) fn joints_named(joints: &[usize]) -> String {
@@ -17,10 +19,27 @@ pub(crate) fn joints_named(joints: &[usize]) -> String {
 
 /// "joint 2 locks" or "joints 2 and 4 lock".
 pub(super) fn what_locks(scenario: &Scenario) -> String {
-    let joints = joints_named(scenario.failed_joints());
-    match scenario.failed_joints() {
-        [_] => format!("{joints} locks"),
-        _ => format!("{joints} lock"),
+    locks(scenario.failed_joints())
+}
+
+/// The same of any joints, counted from 0.
+pub(super) fn locks(joints: &[usize]) -> String {
+    let named = joints_named(joints);
+    match joints {
+        [_] => format!("{named} locks"),
+        _ => format!("{named} lock"),
+    }
+}
+
+/// The unit of impacts of these joints together.
+pub(super) fn impact_unit(joints: &[Joint]) -> &'static str {
+    let slides = |joint: &Joint| joint.kind == JointKind::Prismatic;
+    if joints.iter().all(slides) {
+        "N"
+    } else if joints.iter().any(slides) {
+        "N m (N at sliding joints)"
+    } else {
+        "N m"
     }
 }
 
@@ -70,17 +89,31 @@ pub(super) fn seconds(time: f64) -> String {
     }
 }
 
-/// Four digits; what is rounding is 0.
-pub(crate) fn significant(value: f64) -> String {
+/// A coefficient with four digits; very small and very large ones by their own power of ten.
+pub(super) fn coefficient(value: f64) -> String {
     let size = value.abs();
-    if size < 1e-9 {
+    if size == 0.0 {
         "0".to_owned()
-    } else if size < 1e-3 {
-        format!("{value:.1e}")
-    } else if size >= 1e5 {
-        format!("{value:.3e}")
-    } else {
+    } else if (1e-2..1e4).contains(&size) {
         let decimals = (3.0 - size.log10().floor()).clamp(0.0, 5.0) as usize;
         format!("{value:.decimals$}")
+    } else {
+        format!("{value:.3e}")
+    }
+}
+
+/// The same without zeros at the end: for numbers that have few digits from the start.
+pub(super) fn short(value: f64) -> String {
+    let text = coefficient(value);
+    let trimmed = |digits: &str| match digits.split_once('.') {
+        Some(_) => digits
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+            .to_owned(),
+        None => digits.to_owned(),
+    };
+    match text.split_once('e') {
+        Some((digits, power)) => format!("{}e{power}", trimmed(digits)),
+        None => trimmed(&text),
     }
 }

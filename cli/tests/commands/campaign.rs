@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use assert_cmd::assert::Assert;
+use serde_json::Value;
 
 #[cfg(unix)]
 use crate::support::{at, make_pipe};
@@ -43,6 +44,7 @@ fn the_file_does_not_depend_on_the_number_of_threads() {
         assert!(number(6) <= number(5) * (1.0 + 1e-9), "{row}");
         assert!(number(5) <= number(3) * (1.0 + 1e-9), "{row}");
     }
+    summary_is_of_the_rows(&one, &text);
     let befores: BTreeSet<_> = rows.iter().map(|row| row.split(',').nth(3)).collect();
     assert_eq!(befores.len(), 60);
     for kind in ["svg", "png"] {
@@ -54,6 +56,72 @@ fn the_file_does_not_depend_on_the_number_of_threads() {
         "{err}"
     );
     assert!(!err.contains('\u{1b}'), "a progress bar in a pipe:\n{err}");
+}
+
+/// The page and its numbers say of joint 1 what its rows say.
+fn summary_is_of_the_rows(output: &Path, csv: &str) {
+    let mut lines = csv.lines();
+    let names: Vec<_> = lines.next().unwrap().split(',').collect();
+    let column = |name: &str| names.iter().position(|found| *found == name).unwrap();
+    let rows: Vec<Vec<_>> = lines.map(|line| line.split(',').collect()).collect();
+    let of_first = |name: &str| -> Vec<f64> {
+        let rows = rows.iter().filter(|row| row[1] == "1");
+        rows.map(|row| row[column(name)].parse().unwrap()).collect()
+    };
+    let text = fs::read_to_string(output.join("campaign-summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(summary["cases"], 60);
+    assert_eq!(summary["joints"].as_array().unwrap().len(), 7);
+    let first = &summary["joints"][0];
+    let worst = |values: Vec<f64>| values.into_iter().fold(0.0, f64::max);
+    for (law, key, name) in [
+        (0, "impact", "eq16"),
+        (0, "force_error_at_lock", "eq16_force_error"),
+        (0, "max_force_error", "eq16_max_force_error"),
+        (1, "max_force_error", "eq20_max_force_error"),
+        (3, "impact", "after_only"),
+    ] {
+        assert_eq!(
+            first["laws"][law][key]["worst"],
+            worst(of_first(name)),
+            "{name}"
+        );
+    }
+    let (before, after) = (of_first("before"), of_first("eq20"));
+    let worse = before
+        .iter()
+        .zip(&after)
+        .filter(|(before, after)| after > before);
+    let share = |cases: usize| cases as f64 / before.len() as f64;
+    assert_eq!(first["laws"][1]["made_worse"], share(worse.count()));
+    let joints = of_first("eq20_worse_joints").into_iter();
+    let cases = joints.filter(|joints| *joints > 0.0).count();
+    assert!(cases > 0);
+    assert_eq!(first["laws"][1]["a_joint_made_worse"], share(cases));
+    // After the lock alone there is less to do than before and after it, and never harm.
+    for row in &rows {
+        let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
+        assert!(number("optimal") <= number("after_only") * (1.0 + 1e-9));
+        assert!(number("after_only") <= number("before") * (1.0 + 1e-9));
+        assert!(number("eq16_force_error") <= number("eq16_max_force_error") * (1.0 + 1e-9));
+        assert!(number("eq20_max_force_error") < 1e-6);
+    }
+    let page = fs::read_to_string(output.join("campaign.md")).unwrap();
+    assert!(page.contains("| 1 | `eq16` | "), "{page}");
+    assert!(page.contains("- after only leaves "), "{page}");
+}
+
+#[test]
+fn a_file_with_the_columns_of_an_older_program_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path();
+    campaign(output, &["--cases", "10"]).code(0);
+    let old = csv(output).replacen(",after_only", "", 1);
+    fs::remove_file(output.join("campaign.csv")).unwrap();
+    fs::write(output.join("campaign.csv.partial"), &old).unwrap();
+    let err = stderr(&campaign(output, &["--cases", "10"]).code(1).stdout(""));
+    let message = "campaign.csv.partial is no file of a campaign, or of an older one with other columns; remove it";
+    assert!(err.contains(message), "{err}");
 }
 
 #[test]

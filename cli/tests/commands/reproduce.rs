@@ -109,7 +109,11 @@ fn keys(value: &Value) -> BTreeSet<&str> {
         .collect()
 }
 
-const FIGURES: [&str; 10] = [
+const FIGURES: [&str; 14] = [
+    "arm-healthy",
+    "arm-locked",
+    "search-in-steps",
+    "structure",
     "figure_4",
     "figure_5",
     "figure_6",
@@ -145,6 +149,8 @@ fn everything_is_printed_and_written() {
         "limits.csv",
         "plan_steps.csv",
         "truth.csv",
+        "simulation.csv",
+        "structure.csv",
         "convergence.csv",
         "ablation.csv",
         "sweep.csv",
@@ -202,13 +208,22 @@ fn tables_stand_beside_the_papers(out: &str) {
     );
     assert_eq!(
         row(out, "10 s  paper, Table 4"),
-        [
-            "-9.00", "-8.50", "-9.00", "-8.50", "-12.00", "-10.00", "0.00"
-        ]
+        ["-9e7", "-8.5e7", "-9e7", "-8.5e7", "-1.2e8", "-1e8", "0"]
     );
-    assert!(
-        out.contains("coefficients k_d of Eq. 16, in 1e7\n"),
-        "{out}"
+    // Each with its own power of ten: a small one loses no digits to a large one.
+    assert_eq!(
+        row(out, "10 s  in steps"),
+        ["5.1e7", "-8.1e7", "3.9e7", "-3.8e7", "1.1e7", "8e6", "0"]
+    );
+    assert_eq!(row(out, "10 s  exactly")[5], "7.770e6");
+    // What the tool is asked to exert stands beside what it is off by.
+    assert_eq!(
+        row(out, "force error at the lock, N (34.64 asked)"),
+        ["0", "13.57", "13.71", "0", "0"]
+    );
+    assert_eq!(
+        row(out, "4               1.237 N m")[..3],
+        ["80.89", "-3.827", "80.80"]
     );
     assert!(out.contains("with ever shorter brakes"), "{out}");
     what_rated_torques_cut_is_printed(out);
@@ -307,7 +322,10 @@ fn results_are_as_promised(output: &Path) {
             "impact_after",
             "suppression_percent",
             "coefficients",
+            "force_error_at_lock",
             "max_force_error",
+            "asked_force_at_lock",
+            "max_asked_force",
             "max_torque",
             "status",
         ];
@@ -330,6 +348,10 @@ fn results_are_as_promised(output: &Path) {
     let after = numbers(&cases[0], "impact_after");
     assert!(after[..6].iter().all(|after| *after < 1e-6), "{after:?}");
     assert!(cases[0]["max_force_error"].as_f64().unwrap() > 100.0);
+    let at_lock = cases[0]["force_error_at_lock"].as_f64().unwrap();
+    assert!((at_lock - 13.71).abs() < 0.01, "{at_lock}");
+    let asked = cases[0]["asked_force_at_lock"].as_f64().unwrap();
+    assert!((asked - 1200_f64.sqrt()).abs() < 1e-9, "{asked}");
     assert!(cases[1]["max_force_error"].as_f64().unwrap() < 1e-6);
     let peaks = numbers(&cases[3], "max_torque");
     let rated = numbers(&cases[3], "rated_torque");
@@ -404,8 +426,12 @@ fn figures_are_whole(output: &Path) {
     for figure in FIGURES {
         let svg = fs::read_to_string(output.join(format!("figures/{figure}.svg"))).unwrap();
         assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
-        let unit = [" in s", " in N"].iter().any(|unit| svg.contains(unit));
+        let units = [" in s", " in N", " m each", "k_di"];
+        let unit = units.iter().any(|unit| svg.contains(unit));
         assert!(unit && svg.matches("<text").count() > 10, "{figure}");
+        // Whoever finds the figure alone knows what it is of.
+        let footer = "arm ssrms, scenario paper_like, joint 2 locks";
+        assert!(svg.contains(footer), "{figure}");
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{figure}");
         let number = |key: &str| -> u32 {
             let (_, rest) = svg.split_once(&format!("{key}=\"")).unwrap();
@@ -440,6 +466,100 @@ fn a_table_runs_on_the_generic_path() {
         assert_eq!(numbers(case, "impact_after"), before);
         assert_eq!(numbers(case, "coefficients"), [0.0, 0.0]);
         assert_eq!(case["max_force_error"], 0.0);
+    }
+}
+
+/// What the page says of an arm follows from its numbers.
+#[test]
+fn the_page_tells_an_arm_without_a_null_space_so_first() {
+    let folder = planar_scenario();
+    reproduce(&folder).code(0);
+    let page = fs::read_to_string(folder.path().join("out/README.md")).unwrap();
+    let spare = page.find("**This arm has no joint to spare.**");
+    let spare = spare.unwrap_or_else(|| panic!("{page}"));
+    assert!(spare < page.find("## a").unwrap(), "{page}");
+    assert!(page.contains("has 1 of 2 independent rows left"), "{page}");
+    for claim in ["95 %", "The paper argues", "trade off", "Its motion is"] {
+        assert!(!page.contains(claim), "{claim:?} in:\n{page}");
+    }
+}
+
+/// Of three joints one is to spare, and steps this small lead nowhere from this far.
+#[test]
+fn the_page_names_searches_that_stopped_early() {
+    let folder = planar_scenario();
+    let change = |name: &str, edits: &[(&str, &str)]| {
+        let path = folder.path().join(name);
+        let mut text = fs::read_to_string(&path).unwrap();
+        for (from, to) in edits {
+            assert!(text.contains(from), "{name} has no {from:?}");
+            text = text.replacen(from, to, 1);
+        }
+        fs::write(path, text).unwrap();
+    };
+    let table = fs::read_to_string(folder.path().join("my_arm.toml")).unwrap();
+    let (_, elbow) = table.split_once("[[joint]] # elbow").unwrap();
+    let two = format!("[[joint]] # elbow{elbow}[[joint]]");
+    change("my_arm.toml", &[("[[joint]] # elbow", &two)]);
+    change(
+        "quick.toml",
+        &[
+            ("start = [10, 60]", "start = [10, 60, 40]"),
+            ("start = 0\nstep = 1e-3", "start = 1e6\nstep = 1e-6"),
+        ],
+    );
+    reproduce(&folder).code(0);
+    let page = fs::read_to_string(folder.path().join("out/README.md")).unwrap();
+    let message =
+        "**A search stopped at its step limit:** `eq16_steps` at 0.9 s after 1000000 steps";
+    assert!(page.contains(message), "{page}");
+    assert!(!page.contains("**The search in steps.**"), "{page}");
+    let left = "**With joint 2 locked this arm has no joint to spare.**";
+    assert!(page.contains(left), "{page}");
+}
+
+/// The paper's 300 N m cannot be kept: the plan alone needs more.
+#[test]
+fn the_page_says_where_the_plan_alone_needs_too_much() {
+    let limits = ("rated_torque = \"none\"", "rated_torque = 300.0");
+    let folder = quick_scenario(&[limits]);
+    let out = stdout(&reproduce(&folder).code(0));
+    assert!(out.contains("10 s  exactly"), "{out}");
+    let page = fs::read_to_string(folder.path().join("out/README.md")).unwrap();
+    for text in [
+        "**No compensation was found** for `eq16_steps` at 10 s (no compensation keeps joint 4 within its rated torque",
+        "405.4 N·m, 30.53 N·m",
+        "That is more than the rated torque of joint 4:",
+    ] {
+        assert!(page.contains(text), "{text:?} is missing in:\n{page}");
+    }
+}
+
+/// The paper's figures are for joint 2. Where a reference does not say so, as here the last one, that is said.
+#[test]
+fn references_for_another_lock_are_left_out_and_named() {
+    let folder = quick_scenario(&[
+        ("joints = [2]", "joints = [3]"),
+        (
+            "time = 10.0\nfailed_joints = [2]\ncoefficients",
+            "time = 10.0\ncoefficients",
+        ),
+    ]);
+    let out = stdout(&reproduce(&folder).code(0));
+    let page = fs::read_to_string(folder.path().join("out/README.md")).unwrap();
+    for text in [&out, &page] {
+        let note = "The reference \"paper, Table 2\" for 3 s is left out: that is no failure time";
+        assert!(text.contains(note), "{text}");
+        let note = "for 10 s is left out: there joint 2 locks, here joint 3 locks.";
+        assert_eq!(text.matches(note).count(), 2, "{text}");
+        let note = "does not say which joint locks there; it stands beside the lock of joint 3.";
+        assert_eq!(text.matches(note).count(), 1, "{text}");
+    }
+    assert!(!out.contains("beside it: "), "{out}");
+    assert!(out.contains("10 s  paper, Table 4"), "{out}");
+    let (of_52, _) = page.split_once("## 5.3").unwrap();
+    for claim in ["The paper argues", "Left of the impact"] {
+        assert!(!of_52.contains(claim), "{claim:?} in:\n{page}");
     }
 }
 

@@ -1,6 +1,6 @@
-//! [`TrajectoryError`]: why a motion cannot be flown.
+//! [`TrajectoryError`]: why a motion cannot be executed.
 
-/// Why a motion cannot be flown. Joints count from 0 in the fields and from 1 in the messages.
+/// Why a motion cannot be executed. Joints count from 0 in the fields and from 1 in the messages.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrajectoryError {

@@ -11,6 +11,7 @@ mod case;
 mod force_kept;
 mod limited;
 mod lock;
+mod mechanics;
 mod plan_steps;
 mod rollout;
 mod runner;
@@ -27,10 +28,13 @@ use ulna::Arm;
 
 pub use ablation::{Ablation, AblationOutcome, AblationRow, Variant};
 pub use bound::{BoundSide, CoefficientBound};
-pub use campaign::{Campaign, CampaignCase, CampaignResult};
+pub use campaign::{Campaign, CampaignCase, CampaignOutcome, CampaignResult, after_only};
 pub use case::{Case, Search, SearchMethod, Study, Tradeoff};
 pub use force_kept::{ForceKept, Lowerable};
 pub use limited::{LimitedJoint, LimitedSuppression};
+pub use mechanics::{
+    ArmPose, JointFrame, LockMechanics, Redundancy, StructureLoad, lock_mechanics,
+};
 pub use plan_steps::{PlanSteps, PlannedTorques, ProfileSteps, TorqueStep};
 pub use rollout::{Rollout, Series};
 pub use runner::ExperimentRunner;

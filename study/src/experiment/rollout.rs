@@ -41,7 +41,7 @@ impl Rollout {
     /// About so many cycles are kept in the series.
     const SERIES: f64 = 400.0;
 
-    /// Flies `motion` with `failure` in it, one call of `controller` every `cycle` s, the tool exerting `force`.
+    /// Executes `motion` with `failure` in it, one call of `controller` every `cycle` s, the tool exerting `force`.
     /// From t_f for `step_time` s, the Δt of Eq. 18, no torque is asked for.
     pub fn execute<const N: usize>(
         controller: &Controller<'_, AnyArm<N>, N>,

@@ -89,6 +89,7 @@ pub enum FigureKind {
 pub struct Reference {
     pub(super) source: String,
     pub(super) time: f64,
+    pub(super) failed_joints: Option<Vec<usize>>,
     pub(super) before: Vec<Option<f64>>,
     pub(super) after: Vec<Option<f64>>,
     pub(super) coefficients: Vec<Option<f64>>,
@@ -106,6 +107,11 @@ impl Reference {
     /// The failure time, s.
     pub fn time(&self) -> f64 {
         self.time
+    }
+
+    /// The joints that lock there, counted from 0, ascending; `None` where it is not said.
+    pub fn failed_joints(&self) -> Option<&[usize]> {
+        self.failed_joints.as_deref()
     }
 
     /// Impact torque without compensation, N·m (N), joint by joint; `None` where there is no figure.

@@ -1,12 +1,15 @@
-//! What an experiment says, in sentences.
+//! What the laws do in an experiment, in sentences.
 
 use std::fmt::{self, Write};
 
+use ulna::{JointKind, Status};
 use ulna_study::Scenario;
-use ulna_study::experiment::{Case, SearchMethod, Study};
+use ulna_study::experiment::{Case, LockMechanics, SearchMethod, Study};
 use ulna_study::scenario::Experiment;
 
-use crate::reproduce::table::reference_at;
+use super::redundancy::Room;
+use crate::reproduce::force::Asked;
+use crate::reproduce::references::is_beside_paper;
 use crate::reproduce::words::{joints_named, name, significant};
 
 /// An impact below this share of the largest joint's is left out of sentences about every joint.
@@ -15,20 +18,13 @@ const NEGLIGIBLE: f64 = 1e-4;
 const ROUNDING: f64 = 1e-12;
 
 /// Values at the failure times, one after the other.
-fn at_each(studies: &[&Study], value: impl Fn(&Study) -> f64) -> String {
-    let values: Vec<_> = studies
-        .iter()
-        .map(|study| significant(value(study)))
-        .collect();
+fn at_each(studies: &[&Study], value: impl Fn(&Study) -> String) -> String {
+    let values: Vec<_> = studies.iter().map(|study| value(study)).collect();
     values.join(", ")
 }
 
-fn times(studies: &[&Study]) -> String {
-    let times: Vec<_> = studies
-        .iter()
-        .map(|study| study.failure_time.to_string())
-        .collect();
-    times.join(", ")
+pub(super) fn times(studies: &[&Study]) -> String {
+    at_each(studies, |study| study.failure_time.to_string())
 }
 
 /// Whether no healthy joint has an impact, but rounding.
@@ -40,7 +36,7 @@ fn is_without_impact(studies: &[&Study]) -> bool {
 }
 
 /// The joints of which a sentence about every joint speaks.
-fn notable(case: &Case) -> impl Iterator<Item = usize> + '_ {
+pub(super) fn notable(case: &Case) -> impl Iterator<Item = usize> + '_ {
     let largest = case.impact_before.iter().copied().fold(0.0, f64::max);
     let joints = case.impact_before.iter().enumerate();
     joints
@@ -48,10 +44,43 @@ fn notable(case: &Case) -> impl Iterator<Item = usize> + '_ {
         .map(|(joint, _)| joint)
 }
 
+/// A number of a method at each failure time, or that there is none.
+fn of(studies: &[&Study], method: SearchMethod, value: fn(&Case) -> f64) -> String {
+    at_each(studies, |study| {
+        let case = study.case(method);
+        match case.search {
+            Ok(_) => significant(value(case)),
+            Err(_) => "(none found)".to_owned(),
+        }
+    })
+}
+
+/// Whether a method has a compensation at some failure time.
+fn is_found(studies: &[&Study], method: SearchMethod) -> bool {
+    let mut cases = studies.iter().map(|study| study.case(method));
+    cases.any(|case| case.search.is_ok())
+}
+
+/// The norm over the healthy joints without compensation.
+fn before(studies: &[&Study]) -> String {
+    at_each(studies, |study| {
+        significant(study.case(SearchMethod::PerJoint).healthy_impact().0)
+    })
+}
+
+/// The share of the impact that a method leaves over the healthy joints; 1 where there is none to take away.
+fn share_left(study: &Study, method: SearchMethod) -> f64 {
+    let (before, after) = study.case(method).healthy_impact();
+    if before < 1e-9 { 1.0 } else { after / before }
+}
+
+/// What the laws leave, and what it costs.
 pub(super) fn suppression_against_force(
     page: &mut String,
+    scenario: &Scenario,
     experiment: &Experiment,
     studies: &[&Study],
+    (locks, asked): (&[LockMechanics], &[Asked]),
 ) -> fmt::Result {
     if is_without_impact(studies) {
         return writeln!(
@@ -59,194 +88,217 @@ pub(super) fn suppression_against_force(
             "**The lock changes no healthy joint's torque:** there is nothing to suppress.\n"
         );
     }
-    let least = |study: &Study| {
-        let case = study.case(SearchMethod::PerJoint);
-        let percent = case.suppression_percent();
-        notable(case)
-            .map(|joint| percent[joint])
-            .fold(100.0, f64::min)
-    };
-    let least: Vec<_> = studies
-        .iter()
-        .map(|study| format!("{:.1}", least(study)))
-        .collect();
-    // Measured, not presumed: another arm may have the room that this one lacks.
-    let apart = studies.iter().any(|study| {
-        let (before, left) = study.case(SearchMethod::Optimal).healthy_impact();
-        left > 0.05 * before
-    });
-    let headline = if apart {
-        "**Suppression by 95 % and an untouched tool force do not hold together.**"
-    } else {
-        "**Here the impact can be suppressed by 95 % with the tool force untouched.**"
-    };
-    // Only where figures of the paper stand beside ours.
-    let paper = if experiment.references().is_empty() {
-        ""
-    } else {
-        "\nThe paper argues with Eq. 20, whose force is exact, and reports the suppression of Eq. 16.\n"
-    };
-    let kept = studies
-        .iter()
-        .map(|study| study.case(SearchMethod::Projected).rollout.max_force_error);
-    let of = |method: SearchMethod, value: fn(&Case) -> f64| {
-        at_each(studies, |study| value(study.case(method)))
-    };
-    let before: fn(&Case) -> f64 = |case| case.healthy_impact().0;
     let after: fn(&Case) -> f64 = |case| case.healthy_impact().1;
-    let error: fn(&Case) -> f64 = |case| case.force_error;
-    let worst: fn(&Case) -> f64 = |case| case.rollout.max_force_error;
-    writeln!(
-        page,
-        "{} For locks at {} s, in this order:\n\n\
-         - Eq. 16 takes at least {} % off the impact of every joint that has one to speak of, and bends the tool force \
-         by {} N at the lock, and by up to {} N elsewhere in the motion: its coefficients are made for one pose and act in all.\n\
-         - Eq. 20 keeps the tool force (to within {} N over the whole motion) and leaves {} of {} N·m over the healthy joints.\n\
-         - No compensation that keeps the force before and after the lock can leave less than {} N·m (the law `optimal`).\n{}",
-        headline,
-        times(studies),
-        least.join(", "),
-        of(SearchMethod::PerJoint, error),
-        of(SearchMethod::PerJoint, worst),
-        match kept.fold(0.0, f64::max) {
-            0.0 => "0".to_owned(),
-            rounding => format!("{rounding:.0e}"),
-        },
-        of(SearchMethod::Projected, after),
-        of(SearchMethod::Projected, before),
-        of(SearchMethod::Optimal, after),
-        paper
-    )
-}
-
-/// What the frontier says: how little force the impact costs.
-pub(super) fn price_of_suppression(page: &mut String, studies: &[&Study]) -> fmt::Result {
-    let ends: Vec<_> = studies
-        .iter()
-        .filter_map(|study| {
-            let (force, impact) = study.tradeoff.as_ref()?.frontier.last()?;
-            let spent = study.case(SearchMethod::PerJoint).force_error;
-            Some(format!(
-                "{} N leave {} N·m at {} s (Eq. 16 spends {} N)",
-                significant(*force),
-                significant(*impact),
-                study.failure_time,
-                significant(spent)
-            ))
-        })
-        .collect();
-    if ends.is_empty() || is_without_impact(studies) {
-        return Ok(());
-    }
-    writeln!(
-        page,
-        "**How the two trade off.** With free null-space torques in place of k_d ∇w_D, force error at the lock buys suppression: {}. \
-         The frontier between is drawn below.\n",
-        ends.join("; ")
-    )
-}
-
-/// Where the grid is too coarse.
-pub(super) fn search_in_steps(
-    page: &mut String,
-    scenario: &Scenario,
-    studies: &[&Study],
-) -> fmt::Result {
-    let mut coarse = Vec::new();
-    for study in studies {
-        let (steps, exact) = (
-            study.case(SearchMethod::StepwisePerJoint),
-            study.case(SearchMethod::PerJoint),
+    if locks.iter().all(|lock| Room::of(lock) == Room::None) {
+        return writeln!(
+            page,
+            "For locks at {} s the healthy joints bear steps of {} N·m (norm), and with every law of {} N·m: there is no joint to spare.\n",
+            times(studies),
+            before(studies),
+            of(studies, SearchMethod::Optimal, after),
         );
-        for joint in notable(steps) {
-            let before = steps.impact_before[joint];
-            let (left, possible) = (
-                steps.impact_after[joint] / before,
-                exact.impact_after[joint] / before,
-            );
-            if left > 0.05 && possible < 0.05 {
-                coarse.push(format!(
-                    "joint {} at {} s ({:.0} % left; k_d = {:.2e})",
-                    joint + 1,
-                    study.failure_time,
-                    100.0 * left,
-                    exact.coefficients[joint]
-                ));
-            }
-        }
     }
-    if coarse.is_empty() {
-        return Ok(());
-    }
-    let milliseconds = |method: SearchMethod| {
-        let searches = studies.iter().map(|study| &study.case(method).search);
-        significant(1e3 * searches.flatten().map(|search| search.seconds).sum::<f64>())
-    };
     writeln!(
         page,
-        "**The search in steps.** A grid of step {:.0e} leaves up to half a step of k_d. That is more than 5 % of the impact where the exact \
-         coefficient is only a few steps long: {}. The exact search has no such limit; it took {} ms where the search in steps took {} ms (`search.csv`).\n",
-        scenario.search().step(),
-        coarse.join("; "),
-        milliseconds(SearchMethod::PerJoint),
-        milliseconds(SearchMethod::StepwisePerJoint),
-    )
-}
-
-/// What is left of the impact, here and in the references.
-pub(super) fn beside_references(
-    page: &mut String,
-    experiment: &Experiment,
-    studies: &[&Study],
-) -> fmt::Result {
-    for study in studies {
-        let Some(reference) = reference_at(experiment, study.failure_time) else {
-            continue;
-        };
-        let case = study.case(SearchMethod::StepwisePerJoint);
-        let pairs = reference.before().iter().zip(reference.after());
-        let rows: Vec<_> = pairs
-            .enumerate()
-            .filter_map(|(joint, pair)| match pair {
-                (Some(before), Some(after)) if *before > 0.0 => Some(format!(
-                    "| {} | {:.1} | {:.1} |",
-                    joint + 1,
-                    100.0 * after / before,
-                    100.0 - case.suppression_percent()[joint]
-                )),
-                _ => None,
-            })
-            .collect();
-        if !rows.is_empty() {
-            writeln!(
-                page,
-                "Left of the impact after the search in steps, lock at {} s:\n\n\
-                 | joint | {}, % | here, % |\n|---|---|---|\n{}\n",
-                study.failure_time,
-                reference.source(),
-                rows.join("\n")
-            )?;
-        }
+        "{} For locks at {} s, in this order:\n",
+        headline(scenario, experiment, studies),
+        times(studies)
+    )?;
+    writeln!(
+        page,
+        "- Without compensation the healthy joints bear steps of {} N·m (norm). The tool is to exert {} N at the lock, at most {} N in the motion.",
+        before(studies),
+        join(asked, |asked| asked.at_lock),
+        join(asked, |asked| asked.most),
+    )?;
+    per_joint(page, studies, after)?;
+    if is_found(studies, SearchMethod::Projected) {
+        writeln!(
+            page,
+            "- Eq. 20 leaves {} N·m, and {}.",
+            of(studies, SearchMethod::Projected, after),
+            force_error(studies, SearchMethod::Projected)
+        )?;
+    }
+    if is_found(studies, SearchMethod::Optimal) {
+        writeln!(
+            page,
+            "- The least that any compensation can leave that keeps the tool force before and after the lock is {} N·m (the law `optimal`); it {}.",
+            of(studies, SearchMethod::Optimal, after),
+            force_error(studies, SearchMethod::Optimal)
+        )?;
+    }
+    writeln!(page)?;
+    if is_beside_paper(scenario, experiment, studies) {
+        writeln!(
+            page,
+            "The paper argues with Eq. 20, whose force is exact, and reports the suppression of Eq. 16.\n"
+        )?;
     }
     Ok(())
 }
 
+/// What Eq. 16 does.
+fn per_joint(page: &mut String, studies: &[&Study], after: fn(&Case) -> f64) -> fmt::Result {
+    if !is_found(studies, SearchMethod::PerJoint) {
+        return Ok(());
+    }
+    let mut kept = Vec::new();
+    for study in studies {
+        let case = study.case(SearchMethod::PerJoint);
+        let percent = case.suppression_percent();
+        let joints = notable(case).filter(|joint| case.search.is_ok() && percent[*joint] < 95.0);
+        kept.extend(joints.map(|joint| {
+            format!(
+                "joint {} at {} s ({:.0} %)",
+                joint + 1,
+                study.failure_time,
+                100.0 - percent[joint]
+            )
+        }));
+    }
+    let kept = if kept.is_empty() {
+        "no joint keeps more than 5 % of its impact, the locked one included (those with less than 1e-4 of the largest impact aside)".to_owned()
+    } else {
+        format!("more than 5 % of the impact is kept by {}", kept.join(", "))
+    };
+    writeln!(
+        page,
+        "- Eq. 16 leaves {} N·m: {kept}. It {}.",
+        of(studies, SearchMethod::PerJoint, after),
+        force_error(studies, SearchMethod::PerJoint),
+    )
+}
+
+/// What a method does to the tool force.
+fn force_error(studies: &[&Study], method: SearchMethod) -> String {
+    let cases = studies.iter().map(|study| study.case(method));
+    let cases = || cases.clone().filter(|case| case.search.is_ok());
+    let most = cases().map(|case| case.rollout.max_force_error);
+    let most = most.fold(0.0, f64::max);
+    let overloaded = cases().any(|case| case.rollout.status == Status::Overloaded);
+    let text = if most < 1e-6 {
+        "keeps the tool force over the whole motion (force error below 1e-6 N)".to_owned()
+    } else {
+        format!(
+            "bends the tool force by {} N at the lock, and by up to {} N in the motion",
+            of(studies, method, |case| case.force_error),
+            of(studies, method, |case| case.rollout.max_force_error),
+        )
+    };
+    if overloaded {
+        format!(
+            "{text}; at times motion and tool force alone exceed a rated torque, and the cut bends the force (status `overloaded`)"
+        )
+    } else {
+        text
+    }
+}
+
+fn join(asked: &[Asked], value: fn(&Asked) -> f64) -> String {
+    let values: Vec<_> = asked
+        .iter()
+        .map(|asked| significant(value(asked)))
+        .collect();
+    values.join(", ")
+}
+
+/// The main finding, of this run's numbers.
+fn headline(scenario: &Scenario, experiment: &Experiment, studies: &[&Study]) -> String {
+    let found = |method: SearchMethod| {
+        let studies = studies
+            .iter()
+            .filter(|study| study.case(method).search.is_ok());
+        studies
+            .map(|study| share_left(study, method))
+            .collect::<Vec<_>>()
+    };
+    let kept = found(SearchMethod::Optimal);
+    let (Some(least), Some(most)) = (
+        kept.iter().copied().reduce(f64::min),
+        kept.iter().copied().reduce(f64::max),
+    ) else {
+        return "**No compensation keeps the tool force and the rated torques.**".to_owned();
+    };
+    let claimed = is_beside_paper(scenario, experiment, studies);
+    if most <= 0.05 {
+        return "**Here 95 % of the impact can be taken away with the tool force untouched.**"
+            .to_owned();
+    }
+    let range = if (most - least) < 0.01 {
+        format!("{:.0} %", 100.0 * most)
+    } else {
+        format!("{:.0} to {:.0} %", 100.0 * least, 100.0 * most)
+    };
+    if claimed {
+        format!(
+            "**Suppression by 95 % and an untouched tool force do not hold together:** with the force kept, at least {range} of the impact stays."
+        )
+    } else {
+        format!("**With the tool force kept, at least {range} of the impact stays.**")
+    }
+}
+
+/// What the frontier says: how little force the impact costs.
+pub(super) fn price_of_suppression(page: &mut String, studies: &[&Study]) -> fmt::Result {
+    if is_without_impact(studies) {
+        return Ok(());
+    }
+    let ends: Vec<_> = studies
+        .iter()
+        .filter_map(|study| {
+            let (force, impact) = study.tradeoff.as_ref()?.frontier.last()?;
+            let eq16 = study.case(SearchMethod::PerJoint);
+            let spent = if eq16.search.is_ok() && *force > 0.0 {
+                format!(
+                    " (Eq. 16 spends {} N and leaves {} N·m)",
+                    significant(eq16.force_error),
+                    significant(eq16.healthy_impact().1)
+                )
+            } else {
+                String::new()
+            };
+            Some((
+                *force,
+                format!(
+                    "{} N leave {} N·m at {} s{spent}",
+                    significant(*force),
+                    significant(*impact),
+                    study.failure_time
+                ),
+            ))
+        })
+        .collect();
+    // Without a law that spends force, the frontier is a point.
+    if ends.iter().all(|(force, _)| *force <= 0.0) {
+        return Ok(());
+    }
+    let ends: Vec<_> = ends.into_iter().map(|(_, text)| text).collect();
+    writeln!(
+        page,
+        "**How the two trade off.** With free torques in place of k_d ∇w_D, force error at the lock buys suppression: {}. \
+         The frontier between is drawn below; the force error elsewhere in the motion is not in it.\n",
+        ends.join("; ")
+    )
+}
+
 /// Which rated torques bind.
-pub(super) fn limits(page: &mut String, studies: &[&Study]) -> fmt::Result {
+pub(super) fn limits(page: &mut String, scenario: &Scenario, studies: &[&Study]) -> fmt::Result {
     for study in studies {
         let case = study.case(SearchMethod::PerJoint);
         let Some(rated) = &case.rated_torque else {
             continue;
         };
-        let beyond = |case: &Case, share: f64| -> Vec<usize> {
-            let joints = case.rollout.max_torque.iter().zip(rated).enumerate();
+        let beyond = |torques: &[f64], share: f64| -> Vec<usize> {
+            let joints = torques.iter().zip(rated).enumerate();
             let beyond = joints.filter(|(_, (torque, rated))| **torque > **rated * share);
             beyond.map(|(joint, _)| joint).collect()
         };
+        let exceeding = |case: &&Case| !beyond(&case.rollout.max_torque, 1.0 + ROUNDING).is_empty();
         let exceeded: Vec<_> = study
             .cases
             .iter()
-            .filter(|case| !beyond(case, 1.0 + ROUNDING).is_empty())
+            .filter(exceeding)
             .map(|case| name(case.method))
             .collect();
         let exceeded = if exceeded.is_empty() {
@@ -255,17 +307,49 @@ pub(super) fn limits(page: &mut String, studies: &[&Study]) -> fmt::Result {
             format!("exceeded by {}", exceeded.join(", "))
         };
         let rows = &case.rollout.series.planned;
-        let plan = (0..rated.len())
-            .map(|joint| rows.iter().map(|row| row[joint].abs()).fold(0.0, f64::max));
-        let plan: Vec<_> = plan.map(significant).collect();
+        let locked = |time: f64, joint: usize| {
+            time >= study.failure_time && case.failed_joints.contains(&joint)
+        };
+        // A locked joint's torque is its brake's.
+        let plan: Vec<_> = (0..rated.len())
+            .map(|joint| {
+                let rows = rows.iter().zip(&case.rollout.series.time);
+                let borne = rows.filter(|(_, time)| !locked(**time, joint));
+                borne.map(|(row, _)| row[joint].abs()).fold(0.0, f64::max)
+            })
+            .collect();
+        let texts = plan
+            .iter()
+            .zip(scenario.arm().joints())
+            .map(|(torque, joint)| {
+                let unit = match joint.kind {
+                    JointKind::Revolute => "N·m",
+                    JointKind::Prismatic => "N",
+                };
+                format!("{} {unit}", significant(*torque))
+            });
+        let law = match case.search {
+            Ok(_) => "under Eq. 16",
+            Err(_) => "without compensation and cut to them",
+        };
+        let too_much = beyond(&plan, 1.0 + ROUNDING);
+        let too_much = if too_much.is_empty() {
+            String::new()
+        } else {
+            format!(
+                " That is more than the rated torque of {}: whatever compensation is added, the motion under this tool force \
+                 cannot be executed as planned unless the compensation relieves them.",
+                joints_named(&too_much)
+            )
+        };
         writeln!(
             page,
-            "Rated torques, lock at {} s: under Eq. 16 they bind at {}; {exceeded}. \
-             The plan alone needs {} N·m of joints 1 to {}.\n",
+            "Rated torques, lock at {} s: {law} they bind at {}; {exceeded}. \
+             The plan alone, motion and tool force, needs of joints 1 to {}: {}.{too_much}\n",
             study.failure_time,
-            joints_named(&beyond(case, 1.0 - 1e-6)),
-            plan.join(", "),
-            rated.len()
+            joints_named(&beyond(&case.rollout.max_torque, 1.0 - 1e-6)),
+            rated.len(),
+            texts.collect::<Vec<_>>().join(", "),
         )?;
     }
     Ok(())

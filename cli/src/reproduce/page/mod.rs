@@ -1,108 +1,113 @@
-//! `README.md`: what was found, in words, with the numbers of this run in them.
+//! `README.md`: what was found, in words. Every sentence follows from the numbers of the run.
 
+mod figures;
 mod findings;
 mod lock;
 mod plan;
+mod redundancy;
+mod references;
+mod searches;
+mod structure;
 mod verdict;
 
 use std::fmt::{self, Write};
 
 use ulna_study::Scenario;
 use ulna_study::experiment::Study;
-use ulna_study::scenario::{Experiment, FigureKind};
+use ulna_study::scenario::Experiment;
 
 use super::Findings;
-use super::drawings::frontier_name;
-use super::words::{joints_named, name, significant, status, what_locks};
-use findings::{
-    beside_references, limits, price_of_suppression, search_in_steps, suppression_against_force,
-};
+use super::words::{name, significant, status, what_locks};
 
 /// The page.
 pub(super) fn write(scenario: &Scenario, findings: &Findings) -> Result<String, fmt::Error> {
     let mut page = String::new();
     let description = match scenario.description() {
         "" => String::new(),
-        description => format!(" Its motion is {description}."),
+        description => format!(" The scenario says of itself: \"{description}\"."),
     };
     writeln!(
         page,
-        "# {}\n\nArm `{}`; {}.{description}\n\n\
-         Impact torque is the step of a joint's torque at the lock while the healthy joints keep to their plan (Eq. 18). \
-         Forces are static: what the torques hold at the tool (Eq. 13).\n",
+        "# {}\n\nArm `{}`; {}.{description}\n",
         scenario.name(),
         scenario.arm().name(),
         what_locks(scenario),
     )?;
+    redundancy::write(&mut page, scenario, &findings.locks)?;
+    writeln!(
+        page,
+        "Impact torque is the step of a joint's torque at the lock while the healthy joints keep to their plan (Eq. 18). \
+         Forces are static: what the torques hold at the tool (Eq. 13). Coefficients are made for the lock that they are judged on. \
+         Equation numbers are the paper's: *Suppression Control for Joint Impact Torque caused by Joint-Locked Failure of Space Manipulator under External Force*.\n",
+    )?;
+    figures::arm(&mut page, scenario, findings)?;
     for experiment in scenario.experiments() {
-        let studies = findings.of_section(experiment);
-        writeln!(page, "## {} {}\n", experiment.section(), experiment.title())?;
-        if experiment.section() == scenario.experiments()[0].section() {
-            suppression_against_force(&mut page, experiment, &studies)?;
-            price_of_suppression(&mut page, &studies)?;
-            search_in_steps(&mut page, scenario, &studies)?;
-        }
-        limits(&mut page, &studies)?;
-        beside_references(&mut page, experiment, &studies)?;
-        summary(&mut page, &studies)?;
-        figures(&mut page, experiment)?;
+        section(&mut page, scenario, findings, experiment)?;
     }
     plan::write(&mut page, &findings.plan_steps)?;
+    structure::write(&mut page, &findings.locks)?;
     lock::write(&mut page, scenario, findings)?;
     verdict::write(&mut page, scenario, findings)?;
     files(&mut page)?;
     Ok(page)
 }
 
-fn summary(page: &mut String, studies: &[&Study]) -> fmt::Result {
+fn section(
+    page: &mut String,
+    scenario: &Scenario,
+    findings: &Findings,
+    experiment: &Experiment,
+) -> fmt::Result {
+    let studies = findings.of_section(experiment);
+    let asked: Vec<_> = studies
+        .iter()
+        .map(|study| findings.asked(experiment, study))
+        .collect();
+    writeln!(page, "## {} {}\n", experiment.section(), experiment.title())?;
+    searches::unfinished(page, &studies)?;
+    let beside = (&findings.locks[..], &asked[..]);
+    findings::suppression_against_force(page, scenario, experiment, &studies, beside)?;
+    if experiment.section() == scenario.experiments()[0].section() {
+        findings::price_of_suppression(page, &studies)?;
+        searches::in_steps(page, scenario, &studies)?;
+    }
+    findings::limits(page, scenario, &studies)?;
+    references::write(page, scenario, experiment, &studies)?;
+    summary(page, findings, experiment, &studies)?;
+    figures::of_experiment(page, experiment)
+}
+
+fn summary(
+    page: &mut String,
+    findings: &Findings,
+    experiment: &Experiment,
+    studies: &[&Study],
+) -> fmt::Result {
     writeln!(
         page,
-        "| lock, s | law | impact before, norm over the healthy joints, N·m | after | force error at the lock, N | at worst, N | controller |\n\
-         |---|---|---|---|---|---|---|"
+        "| lock, s | law | impact before, norm over the healthy joints, N·m | after | force error at the lock, N | of asked, N | at worst, N | of asked at most, N | controller |\n\
+         |---|---|---|---|---|---|---|---|---|"
     )?;
     for study in studies {
+        let asked = findings.asked(experiment, study);
         for case in &study.cases {
             let (before, after) = case.healthy_impact();
             writeln!(
                 page,
-                "| {} | `{}` | {} | {} | {} | {} | {} |",
+                "| {} | `{}` | {} | {} | {} | {} | {} | {} | {} |",
                 study.failure_time,
                 name(case.method),
                 significant(before),
                 significant(after),
                 significant(case.force_error),
+                significant(asked.at_lock),
                 significant(case.rollout.max_force_error),
+                significant(asked.most),
                 status(case),
             )?;
         }
     }
     writeln!(page)
-}
-
-fn figures(page: &mut String, experiment: &Experiment) -> fmt::Result {
-    for figure in experiment.figures() {
-        let caption = match figure.kind() {
-            FigureKind::Torque { joints, time } => {
-                format!(
-                    "Torques of {} with the lock at {time} s, without and with suppression; on the right the half second before and after it",
-                    joints_named(joints)
-                )
-            }
-            FigureKind::Impact => "Impact torque joint by joint; bars end at 0.001 N·m".to_owned(),
-        };
-        writeln!(
-            page,
-            "![{caption}](figures/{}.svg)\n\n*{caption}.*\n",
-            figure.name()
-        )?;
-    }
-    let caption =
-        "What force error buys: the least impact that any compensation leaves, and the three laws";
-    writeln!(
-        page,
-        "![{caption}](figures/{}.svg)\n\n*{caption}.*\n",
-        frontier_name(experiment)
-    )
 }
 
 fn files(page: &mut String) -> fmt::Result {
@@ -113,7 +118,8 @@ fn files(page: &mut String) -> fmt::Result {
          - `results.json`: every case with its exact search. \
          `coefficients` are k_d; the law `optimal` has none, and in their place are those of Eq. 16 that would change each joint's step at the lock alike. \
          `failed_joint` counts from 1, and is a list where several lock together. `rated_torque` is `null` where there is none. \
-         `max_force_error` and `max_torque` are over all control cycles.\n\
+         `force_error_at_lock` is the larger of just before and just after the lock; `max_force_error` and `max_torque` are over all control cycles; \
+         `asked_force_at_lock` and `max_asked_force` are what the tool is to exert.\n\
          - `impact.csv`: a row for each case and joint, the search in steps among them.\n\
          - `search.csv`: the searches side by side: how they ended, gap, iterations, seconds, quality.\n\
          - `frontier.csv`: the points of the frontiers.\n\
@@ -121,6 +127,8 @@ fn files(page: &mut String) -> fmt::Result {
          - `plan_steps.csv`: the torque steps of the plan itself with each profile, and those of the locks.\n\
          - `truth.csv`, `convergence.csv`: the simulated locks.\n\
          - `sweep.csv`, `verdict.csv`: the locks simulated with all gains and rotors, and which compensation lowers what is felt of them.\n\
+         - `structure.csv`: what each joint transmits at the lock, along its axis and off it.\n\
+         - `simulation.csv`, `convergence.csv`: the simulated locks.\n\
          - `series/`: torques and forces over time.\n\
          - `figures/`: SVG, and PNG of the same."
     )

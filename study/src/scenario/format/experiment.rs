@@ -106,11 +106,12 @@ pub(in crate::scenario) static FIGURES: Key = Key::required(
 static REFERENCE: Section = Section {
     header: "[[experiment.reference]]",
     meaning: "Any number of times below an `[[experiment]]`",
-    example: "[[experiment.reference]]\nsource = \"paper, Table 2\"\ntime = 5.0\njoints = [1, 2]\nbefore = [30.0, 60.0]\n\
+    example: "[[experiment.reference]]\nsource = \"paper, Table 2\"\ntime = 5.0\nfailed_joints = [2]\njoints = [1, 2]\nbefore = [30.0, 60.0]\n\
               after = [0.1, 0.1]\ncoefficients = [-1e7, -1e7]\nfree_after = [0.01, 0.02]\ndecrease = [20.0, 60.0]\nmean_room = 250.0\n",
     keys: &[
         &SOURCE,
         &REFERENCE_TIME,
+        &REFERENCE_FAILED_JOINTS,
         &REFERENCE_JOINTS,
         &BEFORE,
         &AFTER,
@@ -133,6 +134,15 @@ pub(in crate::scenario) static REFERENCE_TIME: Key = Key::required(
     "`time = 10.0`",
 )
 .limits(&[Limit::Within(&FAILURE_TIME)]);
+pub(in crate::scenario) static REFERENCE_FAILED_JOINTS: Key = Key::required(
+    "failed_joints",
+    Kind::List(&Kind::Number, "at least one"),
+    "The joints that lock there, counted from 1: the figures stand beside no other lock",
+    "`failed_joints = [2]`",
+)
+.need(Need::Optional(
+    "it is not said, and the figures stand beside any lock",
+));
 pub(in crate::scenario) static REFERENCE_JOINTS: Key = Key::required(
     "joints",
     Kind::List(&Kind::Number, "at least one"),

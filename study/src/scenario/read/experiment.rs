@@ -40,6 +40,7 @@ pub(in crate::scenario) enum RatedWord {
 pub(in crate::scenario) struct ReferenceTable {
     pub(in crate::scenario) source: String,
     pub(in crate::scenario) time: Number,
+    pub(in crate::scenario) failed_joints: List,
     pub(in crate::scenario) joints: List,
     pub(in crate::scenario) before: List,
     pub(in crate::scenario) after: List,
@@ -138,6 +139,7 @@ fn read_reference(fields: &mut Fields<'_>, _: &str) -> ReferenceTable {
     ReferenceTable {
         source: text_of(fields.value(&format::SOURCE)),
         time: number(fields.value(&format::REFERENCE_TIME)),
+        failed_joints: list(fields.value(&format::REFERENCE_FAILED_JOINTS)),
         joints: list(fields.value(&format::REFERENCE_JOINTS)),
         before: list(fields.value(&format::BEFORE)),
         after: list(fields.value(&format::AFTER)),

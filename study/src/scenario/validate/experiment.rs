@@ -228,6 +228,13 @@ impl Reader<'_> {
             Some(list) => self.joint_numbers(list),
             None => self.joint_count.map(|count| (0..count).collect()),
         };
+        let failed_joints = match &table.failed_joints {
+            Some(list) => self.joint_numbers(list).map(|mut joints| {
+                joints.sort_unstable();
+                Some(joints)
+            }),
+            None => Some(None),
+        };
         let time = self.bounded(&table.time, &format::REFERENCE_TIME);
         let joints = joints?;
         let spread = |list: &List, key: &Key| {
@@ -256,6 +263,7 @@ impl Reader<'_> {
         Some(Reference {
             source: table.source.clone(),
             time: time?,
+            failed_joints: failed_joints?,
             before: before?,
             after: after?,
             coefficients: coefficients?,
