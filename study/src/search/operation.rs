@@ -38,7 +38,7 @@ pub struct OperationOptions<const N: usize> {
 /// Measured on the paper-like motion, one of joints 1 to 6 locking at 1, 2 to 19 s, without rated torques and with those of Section 5.3:
 /// no norm that Eq. 20 or the optimum leaves grows by more than 1.5·10⁻⁶ of itself, while the torques of Eq. 20 fall to down to a tenth
 /// (its coefficients share a direction, and many leave the same). Eq. 16 no longer spends 7·10⁵ N·m on a joint (joint 1 locking at 18 s).
-/// At 0.01 norms grow by up to 0.7 %.
+/// At 0.01 norms grow by up to 0.6 %.
 pub const EFFORT: f64 = 1e-3;
 
 impl<const N: usize> Default for OperationOptions<N> {
