@@ -4,6 +4,7 @@ mod bounds;
 mod csv;
 mod drawings;
 mod limited;
+mod lock_step;
 mod page;
 mod plan_steps;
 mod results;

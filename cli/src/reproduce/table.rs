@@ -8,7 +8,7 @@ use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
 use ulna_study::scenario::{Experiment, Reference, Scenario};
 
 use super::words::{name, seconds, significant, solve_status, what_locks};
-use super::{Findings, bounds, limited, plan_steps};
+use super::{Findings, bounds, limited, lock_step, plan_steps};
 
 /// Columns of a table of impacts, one for each method.
 const METHODS: [(SearchMethod, &str); 4] = [
@@ -27,6 +27,7 @@ pub(super) fn write(
     writeln!(out, "{}", heading(scenario))?;
     for experiment in scenario.experiments() {
         writeln!(out, "\n{} {}", experiment.section(), experiment.title())?;
+        lock_step::write(experiment, out)?;
         let studies = findings.of_section(experiment);
         for study in &studies {
             let reference = reference_at(experiment, study.failure_time);

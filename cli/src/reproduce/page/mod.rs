@@ -10,9 +10,9 @@ use ulna_study::Scenario;
 use ulna_study::experiment::Study;
 use ulna_study::scenario::{Experiment, FigureKind};
 
-use super::Findings;
 use super::drawings::frontier_name;
 use super::words::{joints_named, name, significant, status, what_locks};
+use super::{Findings, lock_step};
 use findings::{
     beside_references, limits, price_of_suppression, search_in_steps, suppression_against_force,
 };
@@ -36,6 +36,7 @@ pub(super) fn write(scenario: &Scenario, findings: &Findings) -> Result<String, 
     for experiment in scenario.experiments() {
         let studies = findings.of_section(experiment);
         writeln!(page, "## {} {}\n", experiment.section(), experiment.title())?;
+        lock_step::sentence(&mut page, experiment)?;
         if experiment.section() == scenario.experiments()[0].section() {
             suppression_against_force(&mut page, experiment, &studies)?;
             price_of_suppression(&mut page, &studies)?;
