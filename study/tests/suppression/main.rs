@@ -9,4 +9,5 @@ mod profiles;
 mod search;
 mod singular;
 mod step;
+mod tool_profiles;
 mod trajectory;
