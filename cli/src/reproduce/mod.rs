@@ -7,6 +7,7 @@ mod csv;
 mod drawings;
 mod force;
 mod limited;
+mod lock_step;
 mod page;
 mod plan_steps;
 mod references;

@@ -10,7 +10,7 @@ use super::coefficients::coefficients;
 use super::force::Asked;
 use super::references::{self, reference_at};
 use super::words::{impact_unit, name, seconds, significant, solve_status, what_locks};
-use super::{Findings, bounds, limited, plan_steps, structure, verdict, worse};
+use super::{Findings, bounds, limited, lock_step, plan_steps, structure, verdict, worse};
 use crate::columns::plain;
 
 /// Columns of a table of impacts, one for each method.
@@ -30,6 +30,7 @@ pub(super) fn write(
     writeln!(out, "{}", heading(scenario))?;
     for experiment in scenario.experiments() {
         writeln!(out, "\n{} {}", experiment.section(), experiment.title())?;
+        lock_step::write(experiment, out)?;
         let studies = findings.of_section(experiment);
         for study in &studies {
             let reference = reference_at(scenario, experiment, study.failure_time);

@@ -226,6 +226,8 @@ fn tables_stand_beside_the_papers(out: &str) {
         ["80.89", "-3.827", "80.80"]
     );
     assert!(out.contains("with ever shorter brakes"), "{out}");
+    let delta = "the first torque after the lock is taken 0.01 s after it (Delta t of Eq. 18)\n";
+    assert_eq!(out.matches(delta).count(), 1);
     what_rated_torques_cut_is_printed(out);
     the_plans_steps_stand_beside_the_locks(out);
     // No norm without the joints that pay for it, and what proves that some have to.

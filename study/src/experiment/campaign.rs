@@ -97,7 +97,7 @@ impl<'a, const N: usize> Campaign<'a, N> {
     /// At so many times a motion is looked at, for the limits.
     const SAMPLES: f64 = 100.0;
 
-    /// The campaign of `scenario`, whose motion and first experiment are varied.
+    /// The campaign of `scenario`, whose motion and first experiment are varied; Δt (Eq. 18) and ΔF_e (Eq. 8) are that experiment's.
     ///
     /// # Errors
     /// When the scenario's own motion cannot be executed, as by another arm.

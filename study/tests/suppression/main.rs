@@ -15,4 +15,5 @@ mod search;
 mod singular;
 mod step;
 mod suppression_loop;
+mod tool_profiles;
 mod trajectory;

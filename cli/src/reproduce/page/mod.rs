@@ -16,8 +16,8 @@ use ulna_study::Scenario;
 use ulna_study::experiment::Study;
 use ulna_study::scenario::Experiment;
 
-use super::Findings;
 use super::words::{name, significant, status, what_locks};
+use super::{Findings, lock_step};
 
 /// The page.
 pub(super) fn write(scenario: &Scenario, findings: &Findings) -> Result<String, fmt::Error> {
@@ -64,6 +64,7 @@ fn section(
         .map(|study| findings.asked(experiment, study))
         .collect();
     writeln!(page, "## {} {}\n", experiment.section(), experiment.title())?;
+    lock_step::sentence(page, experiment)?;
     searches::unfinished(page, &studies)?;
     let beside = (&findings.locks[..], &asked[..]);
     findings::suppression_against_force(page, scenario, experiment, &studies, beside)?;

@@ -174,7 +174,7 @@ pub(super) const DEFAULT_STEP_TIME: f64 = 0.0;
 pub(super) static STEP_TIME: Key = Key::required(
     "step_time",
     Kind::Number,
-    "Delta t of Eq. 18: from the last torque before the lock, at t_f, to the first after it. Not the control cycle",
+    "Delta t of Eq. 18: from the last torque before the lock, at t_f, to the first after it. Not the control cycle, and not in simulated locks, which take the time of the brake",
     "`step_time = 0.0`",
 )
 .limits(&[
@@ -184,7 +184,7 @@ pub(super) static STEP_TIME: Key = Key::required(
 .need(Need::Default(|| format!("{DEFAULT_STEP_TIME:?}")));
 pub(super) static FORCE_STEP: Key = wrench_step(
     "force_step",
-    "Delta F_e of Eq. 8: what the lock takes from the tool's force along the world's axes, before minus after",
+    "Delta F_e of Eq. 8: what the lock takes from the tool's force along the world's axes, before minus after; not in simulated locks",
     "`force_step = [0.0, 0.0, 0.0]`",
 );
 pub(super) static MOMENT_STEP: Key = wrench_step(
