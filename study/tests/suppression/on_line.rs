@@ -379,12 +379,12 @@ fn where_a_lock_leaves_no_recourse_its_joint_is_let_go_without_a_jump() {
         (pose.conditioning, share(2), of(2))
     };
     // Where joint 3 has the least part, to the last digits.
-    let nearest = (0..6000)
-        .map(|i| -3.0 + 1e-3 * f64::from(i))
+    let nearest = (0..600)
+        .map(|i| -3.0 + 1e-2 * f64::from(i))
         .filter(|elbow| at(*elbow).0 > 0.05)
         .min_by(|a, b| at(*a).1.total_cmp(&at(*b).1))
         .unwrap();
-    let (mut from, mut to) = (nearest - 1e-3, nearest + 1e-3);
+    let (mut from, mut to) = (nearest - 1e-2, nearest + 1e-2);
     while to - from > 1e-14 {
         let (a, b) = (from + (to - from) / 3.0, to - (to - from) / 3.0);
         (from, to) = if at(a).1 < at(b).1 {
