@@ -51,7 +51,8 @@ fn setting(page: &mut String, scenario: &Scenario, sweep: &Sweep) -> fmt::Result
     writeln!(
         page,
         "What a joint transmits to the structure is what its motor and its brake give, less what accelerates its rotor. \
-         Its step at a lock is taken from just before the lock to when the brake has done its work and the controller knows; below, its norm over the healthy joints. \
+         Its step at a lock is taken from just before the lock to when the brake has done its work and the controller knows, as a control cycle at either time makes it; \
+         below, its norm over the healthy joints. \
          It depends on what holds the healthy joints to their plan, and so it is simulated with gains of the servo of {} rad/s (0 is no feedback) \
          and with rotors of {} kg·m² (kg at sliding joints), as the joints feel them; `own` are those of [motors]. \
          This scenario has: {}. The motors hold their torques for {} s. A change by less than {} % counts as none.\n",
@@ -68,6 +69,12 @@ fn setting(page: &mut String, scenario: &Scenario, sweep: &Sweep) -> fmt::Result
             "Gains of {} rad/s are left out: the gain times the control cycle of {} s is not below 1, and such a loop is not stable by itself.\n",
             listed(&gains),
             sweep.cycle,
+        )?;
+    }
+    if sweep.brake_time.max(sweep.detection) < sweep.cycle {
+        writeln!(
+            page,
+            "The lock is over before the next control cycle: until that one the motors go on with what they held before, and the step comes with it.\n"
         )?;
     }
     let servo = scenario.servo();
