@@ -1,5 +1,6 @@
 //! `README.md`: what was found, in words, with the numbers of this run in them.
 
+mod besides;
 mod findings;
 mod lock;
 mod verdict;
