@@ -35,12 +35,20 @@ impl Setting {
 
     /// Such as "servo of 5 rad/s, no rotors".
     pub(crate) fn drives(&self) -> String {
-        let servo = if self.gain == 0.0 {
+        format!("{}, {}", self.servo(), with_rotors(&self.rotors))
+    }
+
+    /// The same without the rotors' numbers, where the joints have different ones.
+    pub(crate) fn drives_shortly(&self) -> String {
+        format!("{}, {}", self.servo(), titled_rotors(&self.rotors))
+    }
+
+    fn servo(&self) -> String {
+        if self.gain == 0.0 {
             "no feedback".to_owned()
         } else {
             format!("servo of {} rad/s", self.gain)
-        };
-        format!("{servo}, {}", with_rotors(&self.rotors))
+        }
     }
 
     /// Such as "servo of 5 rad/s, no rotors, brake 0.1 s".
@@ -70,6 +78,14 @@ pub(crate) fn with_rotors(rotors: &Rotors) -> String {
     match rotors {
         Rotors::Common(0.0) => "no rotors".to_owned(),
         rotors => format!("rotors of {} kg·m²", inertia(rotors)),
+    }
+}
+
+/// The same for a title, which has no room for a list.
+pub(crate) fn titled_rotors(rotors: &Rotors) -> String {
+    match rotors {
+        Rotors::Own(_) => "own rotors".to_owned(),
+        rotors => with_rotors(rotors),
     }
 }
 

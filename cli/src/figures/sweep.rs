@@ -10,7 +10,7 @@ use super::law::{LAWS, WITHOUT, WITHOUT_LABEL};
 use super::stroke::Stroke;
 use super::style::{BLACK, Pen};
 use super::{Area, Drawn, Figure};
-use crate::setting::{short, with_rotors};
+use crate::setting::{short, titled_rotors};
 
 /// For some failure times: bars over the gains with the scenario's rotors, and beside them over the rotors with its gain.
 pub(crate) struct FeltSteps<'s> {
@@ -82,7 +82,7 @@ impl Figure for FeltSteps<'_> {
             let brake = format!("brake {} s", sweep.brake_time);
             let settings = [
                 (
-                    format!("{lock}, {brake}, {}", with_rotors(own_rotors)),
+                    format!("{lock}, {brake}, {}", titled_rotors(own_rotors)),
                     "servo's gain in rad/s",
                     gains,
                 ),

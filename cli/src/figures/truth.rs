@@ -167,7 +167,7 @@ impl Figure for Convergence<'_> {
             least / 2.0..most.max(least) * 2.0
         };
         let setting = self.truths.first().map(Setting::of);
-        let setting = setting.map_or_else(String::new, |setting| setting.drives());
+        let setting = setting.map_or_else(String::new, |setting| setting.drives_shortly());
         let mut panel = double_log_panel(
             &body,
             pen,

@@ -25,10 +25,18 @@ pub(super) const METHODS: [(SearchMethod, &str); 3] = [
 ];
 
 /// What tables call a method.
-pub(super) fn title(method: SearchMethod) -> &'static str {
+fn title(method: SearchMethod) -> &'static str {
     let mut titles = METHODS.into_iter();
     let found = titles.find(|(known, _)| *known == method);
     found.map_or_else(|| name(method), |(_, title)| title)
+}
+
+/// A law as a sentence has it.
+pub(super) fn law(method: SearchMethod) -> &'static str {
+    match method {
+        SearchMethod::Optimal => "the optimal law",
+        method => title(method),
+    }
 }
 
 /// The verdicts with the scenario's rotors or with its gain: what tables show. The others are in the CSV files.

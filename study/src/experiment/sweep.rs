@@ -65,7 +65,8 @@ pub struct SweepPoint {
 pub struct Felt {
     /// The norm of the step as the paper predicts it (Eq. 18).
     pub predicted_step: f64,
-    /// The norm of the step as it is, from just before the lock to when the brakes have done their work and the controller knows.
+    /// The norm of the step as it is, from just before the lock to when the brakes have done their work and the controller knows,
+    /// as a control cycle at either time makes it ([`Impact::torque_step`](crate::simulation::Impact::torque_step)).
     pub step: f64,
     /// The largest torque of one of them in that time.
     pub peak: f64,

@@ -70,7 +70,8 @@ pub struct TruthRun {
     pub method: Option<SearchMethod>,
     /// The step of each joint's torque as the paper predicts it, after minus before, N·m (N).
     pub predicted_step: Vec<f64>,
-    /// The step of what each joint transmits as it is, from just before the lock to when the brakes have done their work and the controller knows.
+    /// The step of what each joint transmits as it is, from just before the lock to when the brakes have done their work and the controller knows,
+    /// as a control cycle at either time makes it ([`Impact::torque_step`](crate::simulation::Impact::torque_step)).
     pub torque_step: Vec<f64>,
     /// The largest torque that each joint transmits from the lock on, N·m (N).
     pub peak_torque: Vec<f64>,

@@ -53,6 +53,7 @@ mod motion;
 mod outcome;
 mod peak;
 mod run;
+mod servo;
 mod tool_acceleration;
 
 use std::ops::Range;
@@ -67,6 +68,7 @@ use flow::Flow;
 pub use flow::Work;
 pub use outcome::{Balance, Ending, Impact, Outcome};
 use run::Run;
+pub use servo::{Control, Feedback};
 pub use tool_acceleration::tool_acceleration;
 
 /// An arm, its controller, its task and its failure.
@@ -89,48 +91,6 @@ pub struct Simulation<'a, P: ?Sized, A: ?Sized, T, W, const N: usize> {
     /// R, the inertia of each joint's rotor as the joint feels it: its own times the square of its gear's ratio, kg·m² (kg).
     /// Controllers know it, and give what its planned acceleration takes on top of their torque; rated torques are about the latter.
     pub reflected_inertia: SVector<f64, N>,
-}
-
-/// The gains of computed torque: `q̈ = q̈_planned + rate (q̇_planned − q̇) + position (q_planned − q)`
-/// (Siciliano et al., *Robotics*, 8.5.2, Eq. 8.57).
-///
-/// Gains of 0 leave the planned motion's torque alone, at the measured state.
-/// Feedback takes the motion that a compensation causes for a disturbance, and works against it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Feedback {
-    /// 1/s².
-    pub position: f64,
-    /// 1/s.
-    pub rate: f64,
-}
-
-impl Feedback {
-    /// No feedback.
-    pub const NONE: Self = Self {
-        position: 0.0,
-        rate: 0.0,
-    };
-
-    /// Departures die out with critical damping at `frequency`, rad/s.
-    pub fn critical(frequency: f64) -> Self {
-        Self {
-            position: frequency * frequency,
-            rate: 2.0 * frequency,
-        }
-    }
-}
-
-/// When a controller acts.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Control {
-    /// At all times: the limit of ever shorter control cycles.
-    ///
-    /// A cycle whose torque jumps with the state, as it does where the arm goes in and out of
-    /// [`Status::Overloaded`](ulna::Status::Overloaded), may have no motion in this limit; the run then ends with [`Ending::StepTooShort`].
-    #[default]
-    Continuous,
-    /// Every so many s, one cycle at the failure itself; in between the motors hold their torques.
-    Every(f64),
 }
 
 /// How finely a run is computed and seen.

@@ -32,6 +32,14 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
         Ok(truths) => truths,
         Err(error) => return writeln!(page, "It could not be simulated: {error}.\n"),
     };
+    let eq_16 = Some(SearchMethod::PerJoint);
+    let has_run = |truth: &Truth| truth.runs.iter().any(|run| run.method == eq_16);
+    let under_eq_16 = if truths.iter().all(has_run) {
+        let steps = steps(truths, eq_16, |run| &run.torque_step);
+        format!(" and of {steps} N·m under Eq. 16")
+    } else {
+        String::new()
+    };
     let energy = truths
         .iter()
         .flat_map(|truth| &truth.runs)
@@ -42,7 +50,7 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
          what stops {} takes impulses from all joints. Here the arm is simulated under computed torque and the \
          compensation of each law, with {}, under the force of the first experiment; energy is balanced to {:.0e} of its size. \
          The step of the healthy joints' torques (norm) that is predicted without compensation is {} N·m at {} s; what they bear after the brake is a step of {} N·m without \
-         compensation and of {} N·m under Eq. 16. A compensation also moves an arm whose tool nothing holds, and feedback, where there is some, works against it.\n",
+         compensation{}. A compensation also moves an arm whose tool nothing holds, and feedback, where there is some, works against it.\n",
         joints_named(scenario.failed_joints()),
         truths
             .first()
@@ -55,7 +63,7 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
             .collect::<Vec<_>>()
             .join(", "),
         steps(truths, None, |run| &run.torque_step),
-        steps(truths, Some(SearchMethod::PerJoint), |run| &run.torque_step),
+        under_eq_16,
     )?;
     writeln!(
         page,

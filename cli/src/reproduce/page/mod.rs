@@ -1,5 +1,6 @@
 //! `README.md`: what was found, in words. Every sentence follows from the numbers of the run.
 
+mod besides;
 mod figures;
 mod findings;
 mod lock;

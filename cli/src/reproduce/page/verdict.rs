@@ -3,11 +3,12 @@
 use std::fmt::{self, Write};
 
 use ulna_study::Scenario;
-use ulna_study::experiment::{LockVerdict, SearchMethod, Sweep, Truth, Verdict};
+use ulna_study::experiment::{LockVerdict, SearchMethod, Sweep, Verdict};
 use ulna_study::scenario::ServoSettings;
 
+use super::besides;
 use crate::reproduce::Findings;
-use crate::reproduce::verdict::{FIGURE, METHODS, outcome, shown, title};
+use crate::reproduce::verdict::{FIGURE, METHODS, law, outcome, shown};
 use crate::reproduce::words::significant;
 use crate::setting::{Setting, short, with_rotors};
 
@@ -36,12 +37,10 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
     where_none_helps(page, &verdicts)?;
     heaviest(page, sweeps)?;
     table(page, sweeps)?;
-    if let Ok(truths) = &findings.truths {
-        while_braking(page, truths)?;
-        moved_tool(page, truths)?;
-        unfinished(page, truths)?;
+    match &findings.truths {
+        Ok(truths) => besides::write(page, truths),
+        Err(_) => Ok(()),
     }
-    Ok(())
 }
 
 /// What is varied, and what is not.
@@ -51,7 +50,8 @@ fn setting(page: &mut String, scenario: &Scenario, sweep: &Sweep) -> fmt::Result
     writeln!(
         page,
         "What a joint transmits to the structure is what its motor and its brake give, less what accelerates its rotor. \
-         Its step at a lock is taken from just before the lock to when the brake has done its work and the controller knows; below, its norm over the healthy joints. \
+         Its step at a lock is taken from just before the lock to when the brake has done its work and the controller knows, as a control cycle at either time makes it; \
+         below, its norm over the healthy joints. \
          It depends on what holds the healthy joints to their plan, and so it is simulated with gains of the servo of {} rad/s (0 is no feedback) \
          and with rotors of {} kg·m² (kg at sliding joints), as the joints feel them; `own` are those of [motors]. \
          This scenario has: {}. The motors hold their torques for {} s. A change by less than {} % counts as none.\n",
@@ -68,6 +68,12 @@ fn setting(page: &mut String, scenario: &Scenario, sweep: &Sweep) -> fmt::Result
             "Gains of {} rad/s are left out: the gain times the control cycle of {} s is not below 1, and such a loop is not stable by itself.\n",
             listed(&gains),
             sweep.cycle,
+        )?;
+    }
+    if sweep.brake_time.max(sweep.detection) < sweep.cycle {
+        writeln!(
+            page,
+            "The lock is over before the next control cycle: until that one the motors go on with what they held before, and the step comes with it.\n"
         )?;
     }
     let servo = scenario.servo();
@@ -302,89 +308,6 @@ fn table(page: &mut String, sweeps: &[Sweep]) -> fmt::Result {
         page,
         "\n![{caption}](figures/{FIGURE}.svg)\n\n*{caption}.*\n"
     )
-}
-
-/// What Eq. 1-12 leave out while the brake acts.
-fn while_braking(page: &mut String, truths: &[Truth]) -> fmt::Result {
-    let locks = truths.iter().filter_map(|truth| {
-        let norm = |torque: &[f64]| {
-            let joints = torque.iter().enumerate();
-            let healthy = joints.filter(|(joint, _)| !truth.failed_joints.contains(joint));
-            healthy
-                .map(|(_, torque)| torque * torque)
-                .sum::<f64>()
-                .sqrt()
-        };
-        let without = truth.runs.iter().find(|run| run.method.is_none())?;
-        Some(format!(
-            "{} beside {} N·m at {} s",
-            significant(norm(&truth.braking_step)),
-            significant(norm(&without.predicted_step)),
-            truth.failure_time
-        ))
-    });
-    let locks: Vec<_> = locks.collect();
-    let Some(truth) = truths.first().filter(|_| !locks.is_empty()) else {
-        return Ok(());
-    };
-    writeln!(
-        page,
-        "**While the brake acts.** Eq. 1-12 stop the joint's acceleration, -q̈_k, and not its rate. A brake of {} s takes -q̇_k/T besides, on the mean. \
-         If the healthy joints kept their rates, that alone would change their torques by (norm, beside the step predicted without compensation): {}.\n",
-        truth.brake_time,
-        locks.join("; "),
-    )
-}
-
-/// What a compensation does to the tool.
-fn moved_tool(page: &mut String, truths: &[Truth]) -> fmt::Result {
-    let rows = METHODS.iter().filter_map(|(method, title)| {
-        let accelerations: Vec<_> = truths
-            .iter()
-            .filter_map(|truth| {
-                let run = truth.runs.iter().find(|run| run.method == Some(*method))?;
-                Some(format!(
-                    "{} at {} s",
-                    significant(run.tool_acceleration),
-                    truth.failure_time
-                ))
-            })
-            .collect();
-        (!accelerations.is_empty()).then(|| format!("{title}: {}", accelerations.join(", ")))
-    });
-    let rows: Vec<_> = rows.collect();
-    if rows.is_empty() {
-        return Ok(());
-    }
-    writeln!(
-        page,
-        "**The tool.** Eq. 13 is about an arm at rest. What the compensations that were found add to the acceleration of a tool that nothing holds, \
-         |J (M + R)⁻¹ U| just before or just after the lock, the larger (m/s², with the rad/s² of rotations that are of the task): {}.\n",
-        rows.join("; ")
-    )
-}
-
-/// The simulations that did not come to their end.
-fn unfinished(page: &mut String, truths: &[Truth]) -> fmt::Result {
-    for truth in truths {
-        for (method, ending) in &truth.unfinished {
-            writeln!(
-                page,
-                "The lock at {} s could not be simulated with {}: {ending}.\n",
-                truth.failure_time,
-                law(*method)
-            )?;
-        }
-    }
-    Ok(())
-}
-
-/// A law as a sentence has it.
-fn law(method: SearchMethod) -> &'static str {
-    match method {
-        SearchMethod::Optimal => "the optimal law",
-        method => title(method),
-    }
 }
 
 /// "a", "a and b", "a, b and c".
