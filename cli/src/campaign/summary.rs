@@ -20,6 +20,8 @@ pub(super) struct Summary<'s> {
     cases: usize,
     /// Of the cases that have an outcome; the others' `status` in `campaign.csv` says why not.
     outcomes: usize,
+    /// The components of the task; an arm with as many joints has no null space.
+    task: usize,
     all: JointSummary,
     joints: Vec<JointSummary>,
 }
@@ -91,7 +93,7 @@ pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
 
 impl<'s> Summary<'s> {
     /// Of the `rows` of the campaign of `scenario`.
-    pub(super) fn new(scenario: &'s Scenario, rows: &[Row]) -> Self {
+    pub(super) fn new(scenario: &'s Scenario, rows: &[Row], task: usize) -> Self {
         let joints = 1..=scenario.arm().joints().len();
         let of_joint = |joint: usize| {
             let rows = rows.iter().filter(move |row| row.failed_joint == joint);
@@ -103,6 +105,7 @@ impl<'s> Summary<'s> {
             seed: scenario.campaign().seed(),
             cases: rows.len(),
             outcomes: rows.iter().filter(|row| row.before.is_some()).count(),
+            task,
             all: JointSummary::of(None, &rows.iter().collect::<Vec<_>>()),
             joints: joints.map(of_joint).collect(),
         }
@@ -163,6 +166,7 @@ impl<'s> Summary<'s> {
             self.scenario,
             self.heading()
         );
+        page += &self.room();
         for law in LAWS.iter().enumerate() {
             page += &self.sentence(law);
         }
@@ -196,6 +200,24 @@ impl<'s> Summary<'s> {
                  The cases are in `campaign.csv`, the numbers of this page in `campaign-summary.json`; \
                  `campaign.json` is the record by which an interrupted campaign goes on.\n";
         page
+    }
+
+    /// That nothing can be done, or only before the lock, where the task takes all joints.
+    fn room(&self) -> String {
+        let (joints, task) = (self.joints.len(), self.task);
+        if joints <= task {
+            format!(
+                "**This arm has no joint to spare:** {joints} joints, and a task of {task} components. No torque leaves the tool force alone \
+                 but in poses that are singular for the task, and the laws below change nothing elsewhere.\n\n"
+            )
+        } else if joints == task + 1 {
+            format!(
+                "**With a joint locked this arm has none to spare:** {joints} joints, and a task of {task} components. \
+                 The laws below can act before the lock only.\n\n"
+            )
+        } else {
+            String::new()
+        }
     }
 
     /// What a law does over all cases.
