@@ -13,6 +13,7 @@ mod style;
 mod torque;
 mod tradeoff;
 mod truth;
+mod view;
 
 use std::sync::Once;
 

@@ -2,6 +2,7 @@
 
 mod figures;
 mod findings;
+mod limits;
 mod lock;
 mod redundancy;
 mod references;
@@ -89,7 +90,7 @@ fn section(
         findings::price_of_suppression(page, &studies)?;
         searches::in_steps(page, scenario, &studies)?;
     }
-    findings::limits(page, scenario, &studies)?;
+    limits::write(page, scenario, &studies)?;
     references::write(page, scenario, experiment, &studies)?;
     summary(page, findings, experiment, &studies)?;
     figures::of_experiment(page, experiment)
