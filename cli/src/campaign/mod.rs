@@ -14,12 +14,14 @@ use anyhow::Context;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
+use ulna::SerialChain;
 use ulna_study::Scenario;
 use ulna_study::experiment::{AnyArm, Campaign};
 use ulna_study::scenario::CampaignSettings;
 
-use crate::arms::{ForArm, GENERATED, with_arm};
+use crate::arms::{ForArm, GENERATED, with_arm, with_chain_of};
 use crate::figures::{self, HeatMap};
+use crate::joints::ForChain;
 use crate::output::{self, Files, FolderLock};
 use crate::{Verdict, console};
 use file::CampaignFile;
@@ -75,7 +77,8 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     let (rows, _lock) = pool.install(|| with_arm(scenario.arm(), work))??;
 
     let map = HeatMap::new(&rows, scenario.arm().joints().len());
-    let summary = Summary::new(&scenario, &rows);
+    let task = with_chain_of(scenario.arm(), TaskSize)?;
+    let summary = Summary::new(&scenario, &rows, task);
     writeln!(out, "{}", summary.console())?;
     let footer = format!(
         "arm {}, scenario {}, campaign of {} cases, seed {}",
@@ -95,6 +98,17 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         console::note(&format!("wrote {}", path.display()));
     }
     Ok(Verdict::Pass)
+}
+
+/// How many components the arm's task has.
+struct TaskSize;
+
+impl ForChain for TaskSize {
+    type Output = usize;
+
+    fn run<const N: usize>(self, chain: &SerialChain<N>) -> usize {
+        chain.task.iter().count()
+    }
 }
 
 /// All rows of the campaign, found in the file or made, and the folder that they are in.

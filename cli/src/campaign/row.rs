@@ -20,6 +20,10 @@ pub(crate) struct Row {
     pub(crate) eq16_max_force_error: Option<f64>,
     pub(crate) eq20_force_error: Option<f64>,
     pub(crate) eq20_max_force_error: Option<f64>,
+    pub(crate) optimal_force_error: Option<f64>,
+    pub(crate) optimal_max_force_error: Option<f64>,
+    pub(crate) after_only_force_error: Option<f64>,
+    pub(crate) after_only_max_force_error: Option<f64>,
     /// How many healthy joints bear more than without compensation, law by law.
     pub(crate) eq16_worse_joints: Option<usize>,
     pub(crate) eq20_worse_joints: Option<usize>,
@@ -47,6 +51,10 @@ impl Row {
             eq16_max_force_error: outcome.map(|outcome| outcome.per_joint.max_force_error),
             eq20_force_error: outcome.map(|outcome| outcome.projected.force_error),
             eq20_max_force_error: outcome.map(|outcome| outcome.projected.max_force_error),
+            optimal_force_error: outcome.map(|outcome| outcome.optimal.force_error),
+            optimal_max_force_error: outcome.map(|outcome| outcome.optimal.max_force_error),
+            after_only_force_error: outcome.map(|outcome| outcome.after_only.force_error),
+            after_only_max_force_error: outcome.map(|outcome| outcome.after_only.max_force_error),
             eq16_worse_joints: outcome.map(|outcome| outcome.per_joint.worse_joints),
             eq20_worse_joints: outcome.map(|outcome| outcome.projected.worse_joints),
             optimal_worse_joints: outcome.map(|outcome| outcome.optimal.worse_joints),
@@ -72,8 +80,8 @@ pub(crate) struct CampaignLaw {
     pub(crate) impact: Quantity,
     /// How many healthy joints it makes worse.
     pub(crate) worse: fn(&Row) -> Option<usize>,
-    /// Its force errors at the lock and at worst over the motion, N; `None` where it keeps the tool force by construction.
-    pub(crate) force: Option<(Quantity, Quantity)>,
+    /// Its force errors at the lock and at worst over the motion, N.
+    pub(crate) force: (Quantity, Quantity),
 }
 
 /// In the order of tables and panels.
@@ -83,28 +91,34 @@ pub(crate) const LAWS: [CampaignLaw; 4] = [
         title: "Eq. 16",
         impact: |row| row.eq16,
         worse: |row| row.eq16_worse_joints,
-        force: Some((|row| row.eq16_force_error, |row| row.eq16_max_force_error)),
+        force: (|row| row.eq16_force_error, |row| row.eq16_max_force_error),
     },
     CampaignLaw {
         key: "eq20",
         title: "Eq. 20",
         impact: |row| row.eq20,
         worse: |row| row.eq20_worse_joints,
-        force: Some((|row| row.eq20_force_error, |row| row.eq20_max_force_error)),
+        force: (|row| row.eq20_force_error, |row| row.eq20_max_force_error),
     },
     CampaignLaw {
         key: "optimal",
         title: "optimal",
         impact: |row| row.optimal,
         worse: |row| row.optimal_worse_joints,
-        force: None,
+        force: (
+            |row| row.optimal_force_error,
+            |row| row.optimal_max_force_error,
+        ),
     },
     CampaignLaw {
         key: "after_only",
         title: "after only",
         impact: |row| row.after_only,
         worse: |row| row.after_only_worse_joints,
-        force: None,
+        force: (
+            |row| row.after_only_force_error,
+            |row| row.after_only_max_force_error,
+        ),
     },
 ];
 

@@ -20,6 +20,8 @@ pub(super) struct Summary<'s> {
     cases: usize,
     /// Of the cases that have an outcome; the others' `status` in `campaign.csv` says why not.
     outcomes: usize,
+    /// The components of the task; an arm with as many joints has no null space.
+    task: usize,
     all: JointSummary,
     joints: Vec<JointSummary>,
 }
@@ -49,10 +51,10 @@ struct LawSummary {
     made_worse: Option<f64>,
     /// The share of them in which at least one healthy joint bears more than without it.
     a_joint_made_worse: Option<f64>,
-    /// At the lock, N; `null` for laws that keep the tool force by construction.
-    force_error_at_lock: Option<Spread>,
-    /// At worst over the motion, likewise.
-    max_force_error: Option<Spread>,
+    /// N.
+    force_error_at_lock: Spread,
+    /// At worst over the motion, N.
+    max_force_error: Spread,
 }
 
 /// `null` where there is no case.
@@ -91,7 +93,7 @@ pub(crate) fn median(mut values: Vec<f64>) -> Option<f64> {
 
 impl<'s> Summary<'s> {
     /// Of the `rows` of the campaign of `scenario`.
-    pub(super) fn new(scenario: &'s Scenario, rows: &[Row]) -> Self {
+    pub(super) fn new(scenario: &'s Scenario, rows: &[Row], task: usize) -> Self {
         let joints = 1..=scenario.arm().joints().len();
         let of_joint = |joint: usize| {
             let rows = rows.iter().filter(move |row| row.failed_joint == joint);
@@ -103,6 +105,7 @@ impl<'s> Summary<'s> {
             seed: scenario.campaign().seed(),
             cases: rows.len(),
             outcomes: rows.iter().filter(|row| row.before.is_some()).count(),
+            task,
             all: JointSummary::of(None, &rows.iter().collect::<Vec<_>>()),
             joints: joints.map(of_joint).collect(),
         }
@@ -141,11 +144,11 @@ impl<'s> Summary<'s> {
         for joint in self.joints.iter().chain([&self.all]) {
             let head = joint.head();
             let impacts = joint.laws.iter().map(|law| law.impact.median);
-            let force = joint.laws.iter().find_map(|law| law.force_error_at_lock);
-            let worst = joint.laws.iter().find_map(|law| law.max_force_error);
+            // Of Eq. 16, the first.
+            let eq16 = joint.laws.first();
             let cells = [joint.before.median].into_iter().chain(impacts).chain([
-                force.and_then(|force| force.median),
-                worst.and_then(|worst| worst.median),
+                eq16.and_then(|law| law.force_error_at_lock.median),
+                eq16.and_then(|law| law.max_force_error.median),
                 joint.asked_force.median,
             ]);
             lines.push(columns(&head, &cells.map(text).collect::<Vec<_>>()));
@@ -163,6 +166,7 @@ impl<'s> Summary<'s> {
             self.scenario,
             self.heading()
         );
+        page += &self.room();
         for law in LAWS.iter().enumerate() {
             page += &self.sentence(law);
         }
@@ -171,9 +175,6 @@ impl<'s> Summary<'s> {
                  |---|---|---|---|---|---|---|---|---|---|\n";
         for joint in self.joints.iter().chain([&self.all]) {
             for law in &joint.laws {
-                let force = |spread: Option<Spread>| {
-                    spread.map_or_else(|| "kept".to_owned(), |spread| spread.text())
-                };
                 page += &format!(
                     "| {} | `{}` | {} | {} | {} | {} | {} | {} | {} | {} |\n",
                     joint.head(),
@@ -183,8 +184,8 @@ impl<'s> Summary<'s> {
                     law.ratio.text(),
                     law.made_worse.map_or_else(String::new, percent),
                     law.a_joint_made_worse.map_or_else(String::new, percent),
-                    force(law.force_error_at_lock),
-                    force(law.max_force_error),
+                    law.force_error_at_lock.text(),
+                    law.max_force_error.text(),
                     joint.asked_force.text(),
                 );
             }
@@ -198,6 +199,24 @@ impl<'s> Summary<'s> {
         page
     }
 
+    /// That nothing can be done, or only before the lock, where the task takes all joints.
+    fn room(&self) -> String {
+        let (joints, task) = (self.joints.len(), self.task);
+        if joints <= task {
+            format!(
+                "**This arm has no joint to spare:** {joints} joints, and a task of {task} components. No torque leaves the tool force alone \
+                 but in poses that are singular for the task, and the laws below change nothing elsewhere.\n\n"
+            )
+        } else if joints == task + 1 {
+            format!(
+                "**With a joint locked this arm has none to spare:** {joints} joints, and a task of {task} components. \
+                 The laws below can act before the lock only.\n\n"
+            )
+        } else {
+            String::new()
+        }
+    }
+
     /// What a law does over all cases.
     fn sentence(&self, (index, law): (usize, &CampaignLaw)) -> String {
         let all = &self.all.laws[index];
@@ -207,15 +226,12 @@ impl<'s> Summary<'s> {
         let [worse, a_joint] = [all.made_worse, all.a_joint_made_worse];
         let [worse, a_joint] =
             [worse, a_joint].map(|share| share.map_or_else(String::new, percent));
-        let force = match (all.force_error_at_lock, all.max_force_error) {
-            (Some(at_lock), Some(most)) => format!(
-                " Its force error is {} N at the lock and {} N at worst over the motion (median and, in brackets, worst), of {} N asked.",
-                at_lock.text(),
-                most.text(),
-                self.all.asked_force.text()
-            ),
-            _ => String::new(),
-        };
+        let force = format!(
+            " Its force error is {} N at the lock and {} N at worst over the motion (median and, in brackets, worst), of {} N asked.",
+            all.force_error_at_lock.text(),
+            all.max_force_error.text(),
+            self.all.asked_force.text()
+        );
         format!(
             "- {} leaves {} % of the impact in the median and {} % at worst; it makes {worse} % of the cases worse, and a healthy joint in {a_joint} % of them.{force}\n",
             law.title,
@@ -248,8 +264,8 @@ impl JointSummary {
                 ratio: Spread::of(ratios.map(|(before, after)| after / before)),
                 made_worse: share(worse.count()),
                 a_joint_made_worse: share(joints.filter(|joints| *joints > 0).count()),
-                force_error_at_lock: law.force.map(|(at_lock, _)| spread(at_lock)),
-                max_force_error: law.force.map(|(_, most)| spread(most)),
+                force_error_at_lock: spread(law.force.0),
+                max_force_error: spread(law.force.1),
             }
         };
         Self {

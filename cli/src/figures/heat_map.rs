@@ -34,11 +34,9 @@ fn groups() -> [Group; 2] {
     let mut impacts: Vec<(String, Quantity)> =
         vec![("without suppression".to_owned(), |row| row.before)];
     impacts.extend(LAWS.iter().map(|law| (law.title.to_owned(), law.impact)));
-    let forces = LAWS
-        .iter()
-        .take(1)
-        .filter_map(|law| Some((law, law.force?)));
-    let forces = forces.flat_map(|(law, (at_lock, most))| {
+    // Of Eq. 16, the first: the others keep the tool force as far as the rated torques let them.
+    let forces = LAWS.iter().take(1).flat_map(|law| {
+        let (at_lock, most) = law.force;
         [
             (format!("{}: force error at the lock", law.title), at_lock),
             (format!("{}: force error at worst", law.title), most),

@@ -15,6 +15,7 @@ mod sweep;
 mod torque;
 mod tradeoff;
 mod truth;
+mod view;
 
 use std::sync::Once;
 

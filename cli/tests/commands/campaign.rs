@@ -71,6 +71,7 @@ fn summary_is_of_the_rows(output: &Path, csv: &str) {
     let text = fs::read_to_string(output.join("campaign-summary.json")).unwrap();
     let summary: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(summary["cases"], 60);
+    assert_eq!(summary["task"], 3);
     assert_eq!(summary["joints"].as_array().unwrap().len(), 7);
     let first = &summary["joints"][0];
     let worst = |values: Vec<f64>| values.into_iter().fold(0.0, f64::max);

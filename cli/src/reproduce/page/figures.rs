@@ -16,23 +16,34 @@ fn figure(page: &mut String, name: &str, caption: &str) -> fmt::Result {
 
 /// The arm and the search: the paper's Figures 1 to 3.
 pub(super) fn arm(page: &mut String, scenario: &Scenario, findings: &Findings) -> fmt::Result {
+    // Of the paper nothing is said where nothing stands beside it.
+    let beside = scenario
+        .experiments()
+        .iter()
+        .any(|experiment| !experiment.references().is_empty());
+    let number = |number: u32| {
+        if beside {
+            format!(" (as the paper's Figure {number})")
+        } else {
+            String::new()
+        }
+    };
     if let Some(lock) = drawn_lock(findings) {
         let time = lock.failure_time;
         let healthy = format!(
-            "The arm in its planned motion: start, pose at {time} s, goal (as the paper's Figure 1)"
+            "The arm in its planned motion: start, pose at {time} s, goal{}",
+            number(1)
         );
         figure(page, HEALTHY_ARM, &healthy)?;
         let locked = format!(
-            "The same with {} locked at {time} s and the other joints on their plan (as the paper's Figure 3)",
-            joints_named(scenario.failed_joints())
+            "The same with {} locked at {time} s and the other joints on their plan{}",
+            joints_named(scenario.failed_joints()),
+            number(3)
         );
         figure(page, LOCKED_ARM, &locked)?;
     }
-    figure(
-        page,
-        SEARCH,
-        "The search for coefficients in steps (as the paper's Figure 2)",
-    )
+    let search = format!("The search for coefficients in steps{}", number(2));
+    figure(page, SEARCH, &search)
 }
 
 /// Those that an experiment asks for, and its frontier.

@@ -3,6 +3,7 @@
 mod besides;
 mod figures;
 mod findings;
+mod limits;
 mod lock;
 mod plan;
 mod redundancy;
@@ -13,6 +14,7 @@ mod verdict;
 
 use std::fmt::{self, Write};
 
+use ulna::{Joint, JointKind};
 use ulna_study::Scenario;
 use ulna_study::experiment::Study;
 use ulna_study::scenario::Experiment;
@@ -41,6 +43,7 @@ pub(super) fn write(scenario: &Scenario, findings: &Findings) -> Result<String, 
          Forces are static: what the torques hold at the tool (Eq. 13). Coefficients are made for the lock that they are judged on. \
          Equation numbers are the paper's: *Suppression Control for Joint Impact Torque caused by Joint-Locked Failure of Space Manipulator under External Force*.\n",
     )?;
+    units(&mut page, scenario, findings)?;
     figures::arm(&mut page, scenario, findings)?;
     for experiment in scenario.experiments() {
         section(&mut page, scenario, findings, experiment)?;
@@ -51,6 +54,26 @@ pub(super) fn write(scenario: &Scenario, findings: &Findings) -> Result<String, 
     verdict::write(&mut page, scenario, findings)?;
     files(&mut page)?;
     Ok(page)
+}
+
+/// Which norms have more than one unit in them.
+fn units(page: &mut String, scenario: &Scenario, findings: &Findings) -> fmt::Result {
+    let first = findings.locks.first();
+    if first.is_some_and(|lock| lock.task.iter().any(|row| *row >= 3)) {
+        writeln!(
+            page,
+            "The task has moments in it: norms of the tool force and of its error, given in N, take N and N·m together.\n"
+        )?;
+    }
+    let joints = scenario.arm().joints();
+    let slides = |joint: &Joint| joint.kind == JointKind::Prismatic;
+    if joints.iter().any(slides) && !joints.iter().all(slides) {
+        writeln!(
+            page,
+            "Some joints slide: norms over the joints, given in N·m, take N·m and N together.\n"
+        )?;
+    }
+    Ok(())
 }
 
 fn section(
@@ -73,7 +96,7 @@ fn section(
         findings::price_of_suppression(page, &studies)?;
         searches::in_steps(page, scenario, &studies)?;
     }
-    findings::limits(page, scenario, &studies)?;
+    limits::write(page, scenario, &studies)?;
     references::write(page, scenario, experiment, &studies)?;
     summary(page, findings, experiment, &studies)?;
     figures::of_experiment(page, experiment)
