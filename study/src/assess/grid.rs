@@ -9,9 +9,9 @@ use super::law::{AssessedLaw, Law, Plan, Tactic, Tuning, torque};
 use crate::experiment::{AnyArm, ExperimentError, KNOT_PERIOD, rated_torque_of};
 use crate::scenario::{Experiment, PlannedMotion, Scenario};
 use crate::search::{
-    CoefficientLaw, Field, ForcePriority, Moment, Objective, Operation, OperationOptions,
-    RobustObjective, RobustOptions, SearchError, best_constant, cancel_per_joint, least_impact,
-    optimal, robust,
+    CoefficientLaw, Field, ForcePriority, Moment, Objective, OperatingPoint, Operation,
+    OperationOptions, RobustObjective, RobustOptions, SearchError, best_constant, cancel_per_joint,
+    least_impact, optimal, robust,
 };
 use ulna::Trajectory;
 use ulna::control::compensation::{self, Compensation, FreeTorque, OnLine, Projector, TaskPose};
@@ -271,53 +271,78 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         }
     }
 
-    /// One law for each force budget.
+    /// One law for each force budget, side by side.
     fn robust(
         &self,
         moments: &[Moment<N>],
         plain: &dyn Fn(Law, Tactic<N>) -> AssessedLaw<N>,
     ) -> Vec<AssessedLaw<N>> {
         let settings = self.scenario.assess();
+        let options = self.robust_options(moments);
+        let options = settings.force_budgets().iter().map(|budget| RobustOptions {
+            force_budget: *budget,
+            ..options.clone()
+        });
+        let options: Vec<_> = options.collect();
+        let found: Vec<_> = std::thread::scope(|scope| {
+            let solve = |options| scope.spawn(move || robust(moments, options));
+            let threads: Vec<_> = options.iter().map(solve).collect();
+            threads
+                .into_iter()
+                .map(std::thread::ScopedJoinHandle::join)
+                .collect()
+        });
+        let found = options.iter().zip(found);
+        let laws = found.filter_map(|(options, found)| {
+            let found = found.ok()?.ok()?;
+            let note = format!(
+                "{}, {} variables, {} iterations, gap {:.1e} of {:.4}, {:.2} s",
+                found.status.words(),
+                found.variables,
+                found.iterations,
+                found.gap,
+                found.objective,
+                found.seconds
+            );
+            let rest = FreeTorque {
+                torque: SVector::zeros(),
+                wrench: Vector6::zeros(),
+            };
+            let samples = found.samples.iter().map(|sample| sample.before);
+            let plan = Plan {
+                period: self.spacing(),
+                samples: std::iter::once(rest).chain(samples).collect(),
+                force_budget: options.force_budget,
+                ramp: settings.ramp(),
+            };
+            Some(AssessedLaw {
+                force_budget: Some(options.force_budget),
+                note,
+                ..plain(Law::Robust, Tactic::Planned(plan))
+            })
+        });
+        laws.collect()
+    }
+
+    /// All but the budget.
+    fn robust_options(&self, moments: &[Moment<N>]) -> RobustOptions<N> {
         let steps = moments.iter().flat_map(|moment| {
-            let step = |after: &crate::search::OperatingPoint<N>| {
+            let step = |after: &OperatingPoint<N>| {
                 let step = after.planned - moment.before.planned;
                 after.locked.without(&step).norm()
             };
             moment.after.iter().map(step)
         });
         let largest = steps.fold(0.0, f64::max);
-        let budgets = settings.force_budgets().iter().filter_map(|budget| {
-            let options = RobustOptions {
-                objective: RobustObjective::WorstRatio {
-                    floor: (Self::NO_STEP * largest).max(f64::MIN_POSITIVE),
-                },
-                force_budget: *budget,
-                rate: SVector::repeat(settings.rate_limit()),
-                rated_torque: self.rated_torque,
-                ..RobustOptions::default()
-            };
-            let found = robust(moments, &options).ok()?;
-            let first = found.samples.first()?.before;
-            // The motion begins with what the first failure time has.
-            let samples = std::iter::once(first)
-                .chain(found.samples.iter().map(|sample| sample.before))
-                .collect();
-            let plan = Plan {
-                period: self.spacing(),
-                samples,
-                force_budget: *budget,
-                ramp: settings.ramp(),
-            };
-            Some(AssessedLaw {
-                force_budget: Some(*budget),
-                note: format!(
-                    "{} variables, {} iterations, gap {:.1e} of {:.4}, {:.2} s",
-                    found.variables, found.iterations, found.gap, found.objective, found.seconds
-                ),
-                ..plain(Law::Robust, Tactic::Planned(plan))
-            })
-        });
-        budgets.collect()
+        RobustOptions {
+            objective: RobustObjective::WorstRatio {
+                floor: (Self::NO_STEP * largest).max(f64::MIN_POSITIVE),
+            },
+            rate: SVector::repeat(self.scenario.assess().rate_limit()),
+            start: Some(0.0),
+            rated_torque: self.rated_torque,
+            ..RobustOptions::default()
+        }
     }
 
     fn spacing(&self) -> f64 {

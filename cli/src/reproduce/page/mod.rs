@@ -11,6 +11,7 @@ mod references;
 mod searches;
 mod structure;
 mod verdict;
+mod worse;
 
 use std::fmt::{self, Write};
 
@@ -92,6 +93,7 @@ fn section(
     searches::unfinished(page, &studies)?;
     let beside = (&findings.locks[..], &asked[..]);
     findings::suppression_against_force(page, scenario, experiment, &studies, beside)?;
+    worse::write(page, &studies)?;
     if experiment.section() == scenario.experiments()[0].section() {
         findings::price_of_suppression(page, &studies)?;
         searches::in_steps(page, scenario, &studies)?;
@@ -150,7 +152,6 @@ fn files(page: &mut String) -> fmt::Result {
          - `frontier.csv`: the points of the frontiers.\n\
          - `limits.csv`: what the rated torques cost, joint by joint, and what cuts which coefficient.\n\
          - `plan_steps.csv`: the torque steps of the plan itself with each profile, and those of the locks.\n\
-         - `truth.csv`, `convergence.csv`: the simulated locks.\n\
          - `sweep.csv`, `verdict.csv`: the locks simulated with all gains and rotors, and which compensation lowers what is felt of them.\n\
          - `structure.csv`: what each joint transmits at the lock, along its axis and off it.\n\
          - `simulation.csv`, `convergence.csv`: the simulated locks.\n\
