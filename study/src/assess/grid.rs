@@ -89,6 +89,33 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         &self.locks
     }
 
+    /// What locks in failure number `failure`, and when, s: times change fastest.
+    pub fn failure(&self, failure: usize) -> (LockedJoints<N>, f64) {
+        let (lock, time) = self.place(failure);
+        (self.locks[lock], self.times[time])
+    }
+
+    /// The lock and the time of failure number `failure`.
+    pub(super) fn place(&self, failure: usize) -> (usize, usize) {
+        (failure / self.times.len(), failure % self.times.len())
+    }
+
+    pub(super) fn arm(&self) -> &'a AnyArm<N> {
+        self.arm
+    }
+
+    pub(super) fn scenario(&self) -> &'a Scenario {
+        self.scenario
+    }
+
+    pub(super) fn experiment(&self) -> &'a Experiment {
+        self.experiment
+    }
+
+    pub(super) fn motion(&self) -> &PlannedMotion<N> {
+        &self.motion
+    }
+
     /// How many failures there are.
     pub fn len(&self) -> usize {
         self.times.len() * self.locks.len()
@@ -175,8 +202,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         laws: &[AssessedLaw<N>],
         failure: usize,
     ) -> Result<Vec<Option<AssessedCase>>, ExperimentError> {
-        let joints = self.locks[failure / self.times.len()];
-        let time = self.times[failure % self.times.len()];
+        let (joints, time) = self.failure(failure);
         let operation = self.operation(joints, time, Field::DynamicManipulability)?;
         let cases = laws.iter().map(|law| {
             Ok(match &law.tactic {
@@ -189,7 +215,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
                     let assessment = operation.assess(compensation);
                     Some(AssessedCase::new(&operation, &assessment))
                 }
-                Tactic::Planned(plan) => Some(planned(&operation, plan)),
+                Tactic::Planned(plan) => Some(planned(&operation, plan, self.place(failure))),
                 Tactic::Known => optimal(&operation, ForcePriority::Exact)
                     .ok()
                     .map(|found| AssessedCase::new(&operation, &found.assessment)),
@@ -266,6 +292,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         Plan {
             period,
             samples: samples.collect(),
+            recourses: Vec::new(),
             force_budget: law.force_budget,
             ramp: self.scenario.assess().ramp(),
         }
@@ -312,6 +339,11 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
             let plan = Plan {
                 period: self.spacing(),
                 samples: std::iter::once(rest).chain(samples).collect(),
+                recourses: found
+                    .samples
+                    .iter()
+                    .map(|sample| sample.after.clone())
+                    .collect(),
                 force_budget: options.force_budget,
                 ramp: settings.ramp(),
             };
@@ -377,9 +409,12 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
 }
 
 /// A plan until the lock; then what brings the healthy torques nearest to what they were, fading out.
-fn planned<const N: usize>(operation: &Operation<N>, plan: &Plan<N>) -> AssessedCase {
-    let before = plan.before(operation.before());
-    let recourse = operation.recourse(&before, plan.force_budget);
+fn planned<const N: usize>(
+    operation: &Operation<N>,
+    plan: &Plan<N>,
+    place: (usize, usize),
+) -> AssessedCase {
+    let recourse = plan.recourse(operation, place);
     let assessment = operation.assess_torque(compensation::Law::Optimal, |point| {
         if point.locked.is_empty() {
             plan.before(point)

@@ -7,7 +7,7 @@ use super::{Moment, RobustObjective, RobustOptions, RobustSample};
 use crate::search::OperatingPoint;
 use crate::search::convex::conic::{Minimum, Program};
 use crate::search::convex::free_map::FreeMap;
-use crate::search::convex::pseudo_inverse::{null_space, pseudo_inverse, stack};
+use crate::search::convex::pseudo_inverse::{null_space, stack};
 
 /// What of a moment goes into the program.
 pub(super) struct Part {
@@ -23,7 +23,7 @@ pub(super) struct Lock {
     map: FreeMap,
     /// Healthy joints' rows of the step, seen in [`seen`](Self::seen).
     step: DVector<f64>,
-    /// What of a healthy torque counts: an orthonormal basis of what y_k cannot take away, or all of it if y_k is kept.
+    /// What of a healthy torque counts, as the norm of its products with these columns: what y_k cannot take away, or all of it if y_k is kept.
     seen: DMatrix<f64>,
     /// Whether y_k is a variable of the program.
     kept: bool,
@@ -209,13 +209,16 @@ impl Lock {
             }
             seen
         } else {
-            // Neither what y_k takes away nor what goes into the brakes.
-            let taken = map.torque.columns(0, map.null.ncols()).transpose();
+            // Neither what y_k takes away nor what goes into the brakes; near a singular pose it takes away a part.
             let mut brakes = DMatrix::zeros(after.locked.len(), N);
             for (row, joint) in after.locked.iter().enumerate() {
                 brakes[(row, joint)] = 1.0;
             }
-            null_space(&stack(&taken, &brakes))
+            let left = null_space(&stack(&map.null.transpose(), &brakes));
+            match 1.0 - after.pose.fade() {
+                0.0 => left,
+                kept => stack(&left.transpose(), &(map.null.transpose() * kept)).transpose(),
+            }
         };
         Self {
             step: seen.tr_mul(&DVector::from_column_slice(step.as_slice())),
@@ -262,8 +265,7 @@ impl Lock {
             .without(&(after.planned - moment.before.planned));
         let left = u - DVector::from_column_slice(step.as_slice()) - self.torque() * &own;
         let null = self.map.null.ncols();
-        let taking = self.map.torque.columns(0, null).into_owned();
-        let y = pseudo_inverse(&taking, 1.0) * left;
+        let y = self.map.null.tr_mul(&left);
         let mut both = DVector::zeros(null + own.len());
         both.rows_mut(0, null).copy_from(&y);
         both.rows_mut(null, own.len()).copy_from(&own);
