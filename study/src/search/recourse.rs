@@ -26,7 +26,7 @@ pub fn nearest_torque<const N: usize>(
             after.pose.static_torque(&unit)[joint]
         });
         let wanted = DVector::from_column_slice(wanted.as_slice());
-        let f = within_radius(map.tr_mul(&map), map.tr_mul(&wanted), budget);
+        let f = within_radius(map.tr_mul(&map), &map.tr_mul(&wanted), budget);
         for (row, value) in rows.iter().zip(&f) {
             wrench[*row] = *value;
         }
@@ -38,11 +38,11 @@ pub fn nearest_torque<const N: usize>(
 }
 
 /// The least `½ fᵀ A f − bᵀ f` with `‖f‖ ≤ radius`, A positive semidefinite: `f = (A + λ)⁻¹ b`, λ ≥ 0 by bisection.
-fn within_radius(a: DMatrix<f64>, b: DVector<f64>, radius: f64) -> DVector<f64> {
+fn within_radius(a: DMatrix<f64>, b: &DVector<f64>, radius: f64) -> DVector<f64> {
     /// Eigenvalues below this part of the largest count as 0.
     const ROUNDING: f64 = 1e-12;
     let eigen = SymmetricEigen::new(a);
-    let along = eigen.eigenvectors.tr_mul(&b);
+    let along = eigen.eigenvectors.tr_mul(b);
     let largest = eigen.eigenvalues.amax();
     let solve = |shift: f64| {
         let f = along.zip_map(&eigen.eigenvalues, |b, value| {

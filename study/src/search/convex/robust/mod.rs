@@ -235,7 +235,11 @@ fn check<const N: usize>(
     if !(options.effort > 0.0 && options.effort.is_finite()) {
         return argument("effort", "above 0", options.effort);
     }
-    if let Some(rate) = options.rate.iter().find(|rate| !(**rate > 0.0)) {
+    if let Some(rate) = options
+        .rate
+        .iter()
+        .find(|rate| rate.is_nan() || **rate <= 0.0)
+    {
         return argument("rate of the compensation", "above 0", *rate);
     }
     if let RobustObjective::WorstRatio { floor } = options.objective
