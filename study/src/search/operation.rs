@@ -196,6 +196,38 @@ impl<const N: usize> Operation<N> {
         self
     }
 
+    /// The same operation with another field, of the arm and the motion that it was made of.
+    #[must_use]
+    pub fn with_field(
+        &self,
+        arm: &(impl Arm<N> + ?Sized),
+        trajectory: &impl Trajectory<N>,
+        field: Field,
+    ) -> Self {
+        let mut operation = self.clone();
+        for sample in &mut operation.samples {
+            let state = if sample.locked.is_empty() {
+                trajectory.state(sample.time)
+            } else {
+                self.failure.state(trajectory, sample.time)
+            };
+            sample.pose.gradient = sample.locked.without(&field.at(arm, &state.q));
+        }
+        operation
+    }
+
+    /// The operation at the lock alone, [`before`](Self::before) and [`after`](Self::after): all that an impact depends on.
+    ///
+    /// What it says of the rest of the motion, as margins and largest force errors, is of the lock too.
+    #[must_use]
+    pub fn at_lock(&self) -> Self {
+        Self {
+            samples: vec![*self.before(), *self.after()],
+            lock: 1,
+            ..*self
+        }
+    }
+
     /// The failure.
     pub fn failure(&self) -> &Failure<N> {
         &self.failure
