@@ -80,7 +80,11 @@ impl LawName {
                 "on line",
                 "before the lock what prepares for the next one, from the state alone, and after it the nearest torques",
             ),
-            Self::Robust => ("robust", "robust", "planned for all locks at all times of a motion"),
+            Self::Robust => (
+                "robust",
+                "robust",
+                "planned for all locks at all times of a motion",
+            ),
             Self::Limit => (
                 "limit",
                 "limit, force kept",
@@ -164,7 +168,9 @@ impl LawSet {
     /// In the order of [`LawName::ALL`], however they were written.
     pub fn iter(&self) -> impl Iterator<Item = LawName> {
         let this = *self;
-        LawName::ALL.into_iter().filter(move |law| this.contains(*law))
+        LawName::ALL
+            .into_iter()
+            .filter(move |law| this.contains(*law))
     }
 }
 

@@ -6,12 +6,12 @@ use std::sync::OnceLock;
 use ulna::control::compensation::Projector;
 use ulna::{Arm, LockedJoints, Trajectory};
 use ulna_generated::Ssrms;
-use ulna_study::{LawName, Scenario};
 use ulna_study::experiment::{
     Campaign, ExperimentRunner, Rotors, SearchMethod, Sweep, Truth, TruthRun, Verdict,
 };
 use ulna_study::scenario::KnownArm;
 use ulna_study::simulation::Ending;
+use ulna_study::{LawName, Scenario};
 
 const PAPER_LIKE: &str = include_str!("../../scenarios/paper_like.toml");
 const KNOWN: &[KnownArm] = &[KnownArm {

@@ -51,7 +51,8 @@ impl CampaignResult {
     /// What `law` did; `None` if it was not chosen.
     pub fn law(&self, law: LawName) -> Option<&Result<CampaignOutcome, SearchError>> {
         let mut laws = self.laws.iter();
-        laws.find(|(name, _)| *name == law).map(|(_, outcome)| outcome)
+        laws.find(|(name, _)| *name == law)
+            .map(|(_, outcome)| outcome)
     }
 }
 

@@ -5,8 +5,8 @@ use nalgebra::{SVector, Vector6};
 use super::AnyArm;
 use crate::laws::{LawName, LawSet};
 use crate::search::{
-    Assessment, Field, ForcePriority, Objective, Operation, OperationOptions, SearchError,
-    cancel_per_joint, least_impact, optimal,
+    Assessment, Field, ForcePriority, Objective, OperatingPoint, Operation, OperationOptions,
+    SearchError, cancel_per_joint, least_impact, optimal,
 };
 use ulna::Trajectory;
 use ulna::control::compensation::{self, Compensation, FreeTorque, OnLine, Projector};
@@ -50,11 +50,10 @@ impl CampaignOutcome {
 pub(super) struct Trial<'a, T, const N: usize> {
     arm: &'a AnyArm<N>,
     motion: &'a T,
-    /// What searches look at.
-    searched: Operation<N>,
-    /// The whole motion, as long as anything is to be seen there.
-    whole: Option<Operation<N>>,
-    /// Whether any law may bend the force anywhere.
+    /// As much of the motion as any law needs.
+    whole: Operation<N>,
+    lock: Operation<N>,
+    /// Whether every law may bend the force somewhere.
     all_bend: bool,
 }
 
@@ -74,28 +73,22 @@ impl<'a, T: Trajectory<N>, const N: usize> Trial<'a, T, N> {
         let limited = options.rated_torque.iter().any(|rated| rated.is_finite());
         let all_bend = limited || options.projector != Projector::Static;
         let mut options = *options;
-        let looks = all_bend || laws.iter().any(LawName::bends_force);
-        if !looks {
+        if !all_bend && !laws.iter().any(LawName::bends_force) {
             options.sample_period = motion.duration();
         }
-        let operation = Operation::new(arm, motion, |_| wrench, failure, &options)?;
-        let searched = if limited {
-            operation.clone()
-        } else {
-            operation.at_lock()
-        };
+        let whole = Operation::new(arm, motion, |_| wrench, failure, &options)?;
         Ok(Self {
             arm,
             motion,
-            searched,
-            whole: looks.then_some(operation),
+            lock: whole.at_lock(),
+            whole,
             all_bend,
         })
     }
 
     /// The torque step without compensation, N·m (N).
     pub(super) fn step(&self) -> SVector<f64, N> {
-        self.searched.step()
+        self.lock.step()
     }
 
     /// What `law` makes of the failure.
@@ -103,7 +96,7 @@ impl<'a, T: Trajectory<N>, const N: usize> Trial<'a, T, N> {
     /// # Errors
     /// When the limits leave it nothing.
     pub(super) fn meet(&self, law: LawName) -> Result<CampaignOutcome, SearchError> {
-        let searched = &self.searched;
+        let searched = self.searched();
         let compensation = match law {
             LawName::PerJoint => cancel_per_joint(searched)?.compensation,
             LawName::Projected => least_impact(searched, Objective::LeastSquares)?.compensation,
@@ -121,25 +114,32 @@ impl<'a, T: Trajectory<N>, const N: usize> Trial<'a, T, N> {
         Ok(CampaignOutcome::of(seen, &seen.assess(&compensation)))
     }
 
-    /// Where `law` has to be looked at.
+    /// What decides on coefficients and torques.
+    fn searched(&self) -> &Operation<N> {
+        if self.all_bend {
+            &self.whole
+        } else {
+            &self.lock
+        }
+    }
+
+    /// Where what `law` does has to be looked at.
     fn seen(&self, law: LawName) -> &Operation<N> {
-        match &self.whole {
-            Some(whole) if self.all_bend || law.bends_force() => whole,
-            _ => &self.searched,
+        if self.all_bend || law.bends_force() {
+            &self.whole
+        } else {
+            &self.lock
         }
     }
 
     /// Eq. 16 along another field.
     fn kinematic(&self) -> Result<CampaignOutcome, SearchError> {
+        let (arm, motion) = (self.arm, self.motion);
         let field = Field::KinematicManipulability;
-        let along = |operation: &Operation<N>| operation.with_field(self.arm, self.motion, field);
-        let whole = along(self.seen(LawName::Kinematic));
-        let compensation = if self.searched.samples().len() < whole.samples().len() {
-            cancel_per_joint(&whole.at_lock())?.compensation
-        } else {
-            cancel_per_joint(&whole)?.compensation
-        };
-        Ok(CampaignOutcome::of(&whole, &whole.assess(&compensation)))
+        let along = self.searched().with_field(arm, motion, field);
+        let compensation = cancel_per_joint(&along)?.compensation;
+        let assessment = self.whole.assess_along(arm, motion, field, &compensation);
+        Ok(CampaignOutcome::of(&self.whole, &assessment))
     }
 
     /// [`OnLine::equal`] at every state before the lock, and the nearest torque after it.
@@ -147,7 +147,7 @@ impl<'a, T: Trajectory<N>, const N: usize> Trial<'a, T, N> {
         let law = OnLine::equal();
         let operation = self.seen(LawName::OnLine);
         let none = LockedJoints::NONE;
-        let before = |point: &crate::search::OperatingPoint<N>| {
+        let before = |point: &OperatingPoint<N>| {
             let state = self.motion.state(point.time);
             law.compensation(self.arm, &state, &point.pose, none)
         };

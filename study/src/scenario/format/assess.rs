@@ -88,8 +88,8 @@ pub(in crate::scenario) static ASSESSED_RATED_TORQUE: Key = Key::required(
 .need(Need::Optional("those of the first experiment count"));
 pub(in crate::scenario) static LAWS: Key = Key::required(
     "laws",
-    LIST_OF_LAWS,
-    "Which laws are judged, in the order of this list however they are written",
+    Kind::List(&Kind::Words(LawName::listed), "at least one"),
+    "Which laws are judged; results keep to the order below, however they are written",
     "`laws = [\"eq16\", \"on_line\"]`",
 )
 .limits(&[Limit::Said(|| {
@@ -97,6 +97,3 @@ pub(in crate::scenario) static LAWS: Key = Key::required(
     format!("each once; {} are always there", always.join(" and "))
 })])
 .need(Need::Optional("all of them are"));
-
-/// Names of laws.
-pub(super) const LIST_OF_LAWS: Kind = Kind::List(&Kind::Words(LawName::listed), "at least one");

@@ -1,6 +1,5 @@
 //! `[campaign]`.
 
-use super::assess::LIST_OF_LAWS;
 use super::bounds::{FORCE_SPREAD as FORCE_SPREAD_BOUND, MAX_CASES, MAX_FAILURE_TIMES, SPREAD};
 use crate::laws::{LawName, LawSet};
 use crate::scenario::CampaignSettings;
@@ -101,16 +100,18 @@ pub(in crate::scenario) static FORCE_SPREAD: Key = Key::required(
 .need(Need::Default(|| format!("{:?}", DEFAULTS.force_spread)));
 pub(in crate::scenario) static LAWS: Key = Key::required(
     "laws",
-    LIST_OF_LAWS,
-    "Which laws meet every case, tuned for it where they are tuned; in the order of this list however they are written",
+    Kind::List(&Kind::Words(laws_of_campaigns), "at least one"),
+    "Which laws meet every case, tuned for it where they are tuned; results keep to the order below, however they are written",
     "`laws = [\"eq16\", \"on_line\"]`",
 )
-.limits(&[Limit::Said(|| {
-    let refused = LawName::ALL.into_iter().filter(|law| refusal(*law).is_some());
-    let refused: Vec<_> = refused.map(|law| format!("{:?}", law.name())).collect();
-    format!("each once; not {}", refused.join(", "))
-})])
+.limits(&[Limit::Said(|| "each once".to_owned())])
 .need(Need::Default(|| {
     let laws: Vec<_> = DEFAULTS.laws.iter().map(LawName::name).collect();
     format!("{laws:?}")
 }));
+
+fn laws_of_campaigns() -> Vec<(&'static str, &'static str)> {
+    let laws = LawName::ALL.into_iter();
+    let laws = laws.filter(|law| refusal(*law).is_none());
+    laws.map(|law| (law.name(), law.meaning())).collect()
+}
