@@ -156,7 +156,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         self.sampled(joints, time, field, self.sample_period())
     }
 
-    /// Every law, tuned and planned.
+    /// The laws that the scenario chooses, tuned and planned.
     ///
     /// A law that the rated torques leave no place for is left out; [`AssessedLaw::note`] of the others says how their searches ended.
     ///
@@ -170,6 +170,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
             tactic,
             note: String::new(),
         };
+        let chosen = self.scenario.assess().laws();
         let mut laws = vec![plain(Law::None, Tactic::Constant(Compensation::none()))];
         laws.extend(self.tuned()?);
         let moments = self.moments()?;
@@ -177,7 +178,9 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
             (Law::ConstantPerJoint, CoefficientLaw::PerJoint),
             (Law::ConstantProjected, CoefficientLaw::Projected),
         ] {
-            if let Ok(best) = best_constant(&moments, coefficients) {
+            if chosen.contains(law)
+                && let Ok(best) = best_constant(&moments, coefficients)
+            {
                 let tactic = Tactic::Constant(coefficients.with(best.coefficients));
                 laws.push(AssessedLaw {
                     note: format!("gap {:.1e} N m, {:.2} s", best.gap, best.seconds),
@@ -188,8 +191,11 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         let ramp = self.scenario.assess().ramp();
         laws.push(plain(Law::AfterOnly, Tactic::Planned(Plan::nothing(ramp))));
         laws.push(plain(Law::OnLine, Tactic::Planned(self.on_line())));
-        laws.extend(self.robust(&moments, &plain));
+        if chosen.contains(Law::Robust) {
+            laws.extend(self.robust(&moments, &plain));
+        }
         laws.push(plain(Law::Limit, Tactic::Known));
+        laws.retain(|law| chosen.contains(law.law));
         Ok(laws)
     }
 

@@ -6,48 +6,7 @@ use crate::search::{OperatingPoint, Operation};
 use ulna::control::compensation::{Compensation, FreeTorque};
 
 /// The laws that are assessed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Law {
-    /// No compensation.
-    None,
-    /// Eq. 16, its coefficients tuned for one lock.
-    PerJoint,
-    /// Eq. 20, likewise.
-    Projected,
-    /// Eq. 16 with the gradient of the kinematic manipulability in the place of ∇w_D (the paper's reference 11), likewise.
-    Kinematic,
-    /// Eq. 16 with the constant coefficients that are best at the worst of all failures.
-    ConstantPerJoint,
-    /// Eq. 20, likewise.
-    ConstantProjected,
-    /// Nothing before the lock; after it the torques of the healthy joints are brought nearest to what they were
-    /// (a static reading of the paper's reference 12).
-    AfterOnly,
-    /// [`OnLine`](ulna::control::compensation::OnLine) before the lock, the nearest torques after it: no plan, no tuning.
-    OnLine,
-    /// [`robust`](crate::search::robust): planned for all locks at all times.
-    Robust,
-    /// The least that any law leaves that keeps the static tool force and knows the joint and the time: no law, a bound.
-    Limit,
-}
-
-impl Law {
-    /// What it is called in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::PerJoint => "eq16",
-            Self::Projected => "eq20",
-            Self::Kinematic => "kinematic",
-            Self::ConstantPerJoint => "eq16_constant",
-            Self::ConstantProjected => "eq20_constant",
-            Self::AfterOnly => "after_only",
-            Self::OnLine => "on_line",
-            Self::Robust => "robust",
-            Self::Limit => "limit",
-        }
-    }
-}
+pub use crate::laws::LawName as Law;
 
 /// The lock that a law was tuned for.
 #[derive(Clone, Debug, PartialEq)]

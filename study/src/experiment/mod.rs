@@ -16,6 +16,7 @@ mod plan_steps;
 mod rollout;
 mod runner;
 mod sweep;
+mod trial;
 mod truth;
 mod verdict;
 
@@ -28,7 +29,7 @@ use ulna::Arm;
 
 pub use ablation::{Ablation, AblationOutcome, AblationRow, Variant};
 pub use bound::{BoundSide, CoefficientBound};
-pub use campaign::{Campaign, CampaignCase, CampaignOutcome, CampaignResult, after_only};
+pub use campaign::{Campaign, CampaignCase, CampaignResult};
 pub use case::{Case, Search, SearchMethod, Study, Tradeoff};
 pub use force_kept::{ForceKept, Lowerable};
 pub use limited::{LimitedJoint, LimitedSuppression};
@@ -40,6 +41,7 @@ pub use plan_steps::{PlanSteps, PlannedTorques, ProfileSteps, TorqueStep};
 pub use rollout::{Rollout, Series};
 pub use runner::ExperimentRunner;
 pub use sweep::{Felt, Rotors, Sweep, SweepPoint};
+pub use trial::{CampaignOutcome, after_only};
 pub use truth::{BrakeImpulse, Truth, TruthRun};
 pub use verdict::{LockVerdict, Verdict};
 
