@@ -5,7 +5,8 @@ use ulna::control::failure::impact_torque;
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::{
     Arm, Compensation, Controller, Failure, JointLimits, JointState, LockedJoints, OnLine,
-    Projector, Recourse, Schedule, SerialChain, Status, SuppressionLaw, SuppressionLoop, Trapezoid,
+    PointToPoint, Projector, Recourse, Schedule, SerialChain, Status, SuppressionLaw,
+    SuppressionLoop,
 };
 use ulna_generated::Ssrms;
 use ulna_study::simulation::{Brake, Control, Feedback, Resolution, Simulation};
@@ -158,7 +159,7 @@ fn a_control_cycle_allocates_nothing_on_the_generic_path() {
 fn a_simulated_failure_allocates_nothing() {
     let start = SVector::from([0.7, -0.6, 1.3, -2.0, 0.3, 3.4, 0.0]);
     let goal = start + SVector::repeat(0.5);
-    let motion = Trapezoid::new(start, goal, 4.0, 1.0, &JointLimits::none()).unwrap();
+    let motion = PointToPoint::new(start, goal, 4.0, 1.0, &JointLimits::none()).unwrap();
     let failure = Failure {
         joints: LockedJoints::new(&[1]).unwrap(),
         time: 2.0,

@@ -148,7 +148,6 @@ fn everything_is_printed_and_written() {
         "frontier.csv",
         "limits.csv",
         "plan_steps.csv",
-        "truth.csv",
         "simulation.csv",
         "structure.csv",
         "convergence.csv",

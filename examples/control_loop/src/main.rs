@@ -14,8 +14,8 @@ mod svg;
 use plant::Plant;
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::{
-    Arm, JointLimits, JointState, LockedJoints, LoopCycle, OnLine, Recourse, SuppressionLaw,
-    SuppressionLoop, Trajectory, Trapezoid, Weighting,
+    Arm, JointLimits, JointState, LockedJoints, LoopCycle, OnLine, PointToPoint, Recourse,
+    SuppressionLaw, SuppressionLoop, Trajectory, Weighting,
 };
 
 /// s.
@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arm = BenchArm;
     let start = SVector::from([-0.6, -0.5, 0.3, -2.1, 0.2, 1.7, 0.6]);
     let goal = SVector::from([0.7, 0.3, -0.5, -1.3, -0.3, 2.1, 0.6]);
-    let plan = Trapezoid::new(start, goal, DURATION, 0.75, &JointLimits::none())?;
+    let plan = PointToPoint::new(start, goal, DURATION, 0.75, &JointLimits::none())?;
 
     let none = SuppressionLaw::None;
     let law = OnLine::equal();

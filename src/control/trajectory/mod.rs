@@ -9,7 +9,7 @@ use nalgebra::SVector;
 
 pub use error::TrajectoryError;
 pub use limits::JointLimits;
-pub use point_to_point::{PointToPoint, Trapezoid};
+pub use point_to_point::PointToPoint;
 pub use profile::{Profile, ProfileShape};
 
 /// Where the joints are and how they move.

@@ -12,9 +12,6 @@ pub struct PointToPoint<const N: usize> {
     profile: Profile,
 }
 
-/// A [`PointToPoint`] motion, which has a trapezoidal speed unless it is made [`along`](PointToPoint::along) another profile.
-pub type Trapezoid<const N: usize> = PointToPoint<N>;
-
 impl<const N: usize> PointToPoint<N> {
     /// From `start` to `goal` in `duration` s, with [`ProfileShape::Trapezoid`]: speeding up and slowing down for `blend` s each.
     ///

@@ -2,7 +2,7 @@
 
 use nalgebra::{SVector, Vector6};
 
-use crate::search::OperatingPoint;
+use crate::search::{OperatingPoint, Operation};
 use ulna::control::compensation::{Compensation, FreeTorque};
 
 /// The laws that are assessed.
@@ -52,6 +52,9 @@ pub struct Plan<const N: usize> {
     pub period: f64,
     /// U₀ at each sample; between them what is linear between them, in the null space of the pose at hand. Empty for none.
     pub samples: Vec<FreeTorque<N>>,
+    /// What was planned to follow each lock at each time of the grid, by time and then by lock: it counts where rated torques are in
+    /// the way of the torque nearest to that before.
+    pub recourses: Vec<Vec<FreeTorque<N>>>,
     /// How far the recourse may bend the static tool force, N.
     pub force_budget: f64,
     /// How long the recourse takes to fade out, s.
@@ -64,6 +67,7 @@ impl<const N: usize> Plan<N> {
         Self {
             period: 1.0,
             samples: Vec::new(),
+            recourses: Vec::new(),
             force_budget: 0.0,
             ramp,
         }
@@ -91,6 +95,22 @@ impl<const N: usize> Plan<N> {
     /// U before the lock at an operating point, N·m (N).
     pub fn before(&self, point: &OperatingPoint<N>) -> SVector<f64, N> {
         torque(point, &self.at(point.time))
+    }
+
+    /// What follows the lock of an operation, number `lock` of the grid at its time number `time`: what leaves less of the step.
+    pub fn recourse(
+        &self,
+        operation: &Operation<N>,
+        (lock, time): (usize, usize),
+    ) -> FreeTorque<N> {
+        let before = self.before(operation.before());
+        let nearest = operation.recourse(&before, self.force_budget);
+        let planned = self.recourses.get(time).and_then(|locks| locks.get(lock));
+        let left = |after: &FreeTorque<N>| operation.left(&before, after);
+        match planned {
+            Some(planned) if left(planned) < left(&nearest) => *planned,
+            _ => nearest,
+        }
     }
 
     /// What is left of a recourse `since` s after the lock: from 1 to 0 along `1 − 3s² + 2s³`.

@@ -33,6 +33,7 @@ pub use campaign::{Campaign, CampaignCase, CampaignResult};
 pub use case::{Case, Search, SearchMethod, Study, Tradeoff};
 pub use force_kept::{ForceKept, Lowerable};
 pub use limited::{LimitedJoint, LimitedSuppression};
+pub(crate) use lock::COARSE;
 pub use mechanics::{
     ArmPose, JointFrame, LockMechanics, Redundancy, StructureLoad, lock_mechanics,
 };
@@ -108,7 +109,9 @@ pub(crate) fn rated_torque_of<const N: usize>(
     for_each_joint(rated)
 }
 
-fn for_each_joint<const N: usize>(numbers: &[f64]) -> Result<SVector<f64, N>, ExperimentError> {
+pub(crate) fn for_each_joint<const N: usize>(
+    numbers: &[f64],
+) -> Result<SVector<f64, N>, ExperimentError> {
     let numbers = <[f64; N]>::try_from(numbers).map_err(|_| ExperimentError::Joints {
         experiment: numbers.len(),
         arm: N,

@@ -135,7 +135,6 @@ impl<'a, const N: usize> ExperimentRunner<'a, N> {
             field,
             effort,
             projector: self.scenario.servo().projector(),
-            ..OperationOptions::default()
         };
         let force = |time| experiment.force().at(time);
         let operation = Operation::new(self.arm, &self.motion, force, &failure, &options)?;

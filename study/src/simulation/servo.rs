@@ -35,7 +35,7 @@ pub enum Control {
     /// At all times: the limit of ever shorter control cycles.
     ///
     /// A cycle whose torque jumps with the state, as it does where the arm goes in and out of
-    /// [`Status::Overloaded`](ulna::Status::Overloaded), may have no motion in this limit; the run then ends with [`Ending::StepTooShort`].
+    /// [`Status::Overloaded`](ulna::Status::Overloaded), may have no motion in this limit; the run then ends with [`Ending::StepTooShort`](super::Ending::StepTooShort).
     #[default]
     Continuous,
     /// Every so many s, one cycle at the failure itself; in between the motors hold their torques.

@@ -1,8 +1,9 @@
 //! Δt of Eq. 18 and ΔF_e of Eq. 8 in a scenario.
 
 use ulna::nalgebra::Vector6;
-use ulna_study::experiment::{Campaign, SearchMethod};
+use ulna_study::experiment::{Campaign, SearchMethod, Variant};
 use ulna_study::scenario::Experiment;
+use ulna_study::search::Field;
 
 use crate::{TIMES, runner, scenario};
 use ulna_generated::Ssrms;
@@ -47,27 +48,40 @@ fn an_experiment_has_the_step_time_of_the_failure_unless_it_has_its_own() {
 }
 
 /// Why Section 5.2 has none: the null space drifts in Δt, and without limits a huge compensation makes use of that,
-/// so that even a force-exact one cancels a step of which it leaves 6.59 N m in no time.
+/// so that even a force-exact one cancels a step of which it leaves 9.97 N m in no time. A weight of effort leaves part of it,
+/// and still asks for thousands of times the coefficients.
 #[test]
 fn a_step_time_without_limits_lets_huge_compensations_cancel_everything() {
     let left = |edits: &[(&str, &str)]| {
         let scenario = scenario(edits);
         let runner = runner(&scenario);
-        let study = runner.study(&scenario.experiments()[0], 10.0).unwrap();
-        let case = study.case(SearchMethod::Projected);
-        let largest = case
+        let experiment = &scenario.experiments()[0];
+        // In an ablation effort has no weight, in a study it has.
+        let ablation = runner.ablation(experiment, 10.0).unwrap();
+        let projected = Variant::Projected(Field::DynamicManipulability);
+        let mut rows = ablation.rows.iter();
+        let free = rows.find(|row| row.variant == projected).unwrap();
+        let study = runner.study(experiment, 10.0).unwrap();
+        let weighed = study.case(SearchMethod::Projected);
+        let largest = weighed
             .coefficients
             .iter()
             .fold(0.0_f64, |largest, k| largest.max(k.abs()));
-        (case.healthy_impact().1, largest)
+        (free.outcome.unwrap(), weighed.healthy_impact().1, largest)
     };
-    let (instant, of_instant) = left(&[]);
-    let (later, of_later) = left(&[("step_time = 0.0 ", "step_time = 0.01 ")]);
+    let (free, weighed, largest) = left(&[]);
+    assert!(free.healthy_after > 9.97 && free.max_compensation < 100.0);
+    assert!((weighed / free.healthy_after - 1.0).abs() < 1e-5);
+    assert!(largest < 1e8, "{largest:e}");
+    let (free, weighed, largest) = left(&[("step_time = 0.0 ", "step_time = 0.01 ")]);
     assert!(
-        instant > 9.0 && of_instant < 1e9,
-        "{instant} {of_instant:e}"
+        free.healthy_after < 1e-2 && free.max_compensation > 1e6,
+        "{free:?}"
     );
-    assert!(later < 1e-2 && of_later > 1e11, "{later} {of_later:e}");
+    assert!(
+        weighed > 5.0 && weighed < 8.0 && largest > 1e11,
+        "{weighed} {largest:e}"
+    );
 }
 
 #[test]

@@ -9,26 +9,26 @@ mod runs;
 
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::{
-    Arm, Compensation, Controller, Failure, JointLimits, LockedJoints, SerialChain, Trapezoid,
+    Arm, Compensation, Controller, Failure, JointLimits, LockedJoints, PointToPoint, SerialChain,
 };
 use ulna_generated::{Oblique6, Ssrms};
 use ulna_study::simulation::{Brake, Control, Feedback, Simulation};
 
 /// The paper-like motion of the SSRMS.
-fn ssrms_motion() -> Trapezoid<7> {
+fn ssrms_motion() -> PointToPoint<7> {
     let start = SVector::from([0.0, 0.601, -0.895, -2.108, -1.398, 1.437, 0.0]);
     // As angles of the table's rows; q counts from the table's configuration.
     let row = SVector::from([0.0, 90.0, 0.0, 0.0, 0.0, -90.0, 0.0]).map(f64::to_radians);
     let travel = SVector::from([1.474, 0.689, -4.400, 0.273, -3.284, 0.820, 0.0]);
     let q = start - row;
-    Trapezoid::new(q, q + travel, 20.0, 4.455, &JointLimits::none()).unwrap()
+    PointToPoint::new(q, q + travel, 20.0, 4.455, &JointLimits::none()).unwrap()
 }
 
 /// A motion of the oblique arm, its sliding joint included.
-fn oblique_motion() -> Trapezoid<6> {
+fn oblique_motion() -> PointToPoint<6> {
     let start = SVector::from([0.3, -0.5, 0.1, 0.8, -0.4, 0.2]);
     let travel = SVector::from([1.1, 0.7, 0.25, -1.3, 0.9, 2.0]);
-    Trapezoid::new(start, start + travel, 3.0, 0.7, &JointLimits::none()).unwrap()
+    PointToPoint::new(start, start + travel, 3.0, 0.7, &JointLimits::none()).unwrap()
 }
 
 fn pushing(_: f64) -> Vector6<f64> {
@@ -49,11 +49,11 @@ fn lock<const N: usize>(joints: &[usize], time: f64) -> Failure<N> {
 }
 
 type Failing<'a, A, const N: usize> =
-    Simulation<'a, A, A, Trapezoid<N>, fn(f64) -> Vector6<f64>, N>;
+    Simulation<'a, A, A, PointToPoint<N>, fn(f64) -> Vector6<f64>, N>;
 
 /// Joint 2 of the SSRMS braked at 10 s for `duration`. Its motors have no limits: the motion alone asks for more than the rated torque.
 fn ssrms(
-    motion: &Trapezoid<7>,
+    motion: &PointToPoint<7>,
     compensation: Compensation<7>,
     duration: f64,
 ) -> Failing<'_, Ssrms, 7> {
@@ -71,7 +71,7 @@ fn ssrms(
 }
 
 /// Joint `joint` of the oblique arm under gravity braked at 1.2 s for `duration`.
-fn oblique(motion: &Trapezoid<6>, joint: usize, duration: f64) -> Failing<'_, Oblique6, 6> {
+fn oblique(motion: &PointToPoint<6>, joint: usize, duration: f64) -> Failing<'_, Oblique6, 6> {
     Simulation {
         plant: &Oblique6,
         controller: Controller::new(&Oblique6, Compensation::none())

@@ -3,7 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use ulna::nalgebra::{SVector, Vector6};
-use ulna::{Compensation, Failure, JointLimits, JointState, LockedJoints, SerialChain, Trapezoid};
+use ulna::{
+    Compensation, Failure, JointLimits, JointState, LockedJoints, PointToPoint, SerialChain,
+};
 use ulna_generated::Ssrms;
 use ulna_study::search::{Operation, OperationOptions};
 use ulna_table::Model;
@@ -48,11 +50,11 @@ pub(crate) fn paper_force() -> Vector6<f64> {
 }
 
 /// The motion that was fitted to the paper's Table 2.
-pub(crate) fn paper_like_motion() -> Trapezoid<7> {
+pub(crate) fn paper_like_motion() -> PointToPoint<7> {
     let theta = SVector::from([0.0, FRAC_PI_2, 0.0, 0.0, 0.0, -FRAC_PI_2, 0.0]);
     let start = SVector::from([0.0, 0.601, -0.895, -2.108, -1.398, 1.437, 0.0]) - theta;
     let travel = SVector::from([1.474, 0.689, -4.400, 0.273, -3.284, 0.820, 0.0]);
-    Trapezoid::new(start, start + travel, 20.0, 4.455, &JointLimits::none()).unwrap()
+    PointToPoint::new(start, start + travel, 20.0, 4.455, &JointLimits::none()).unwrap()
 }
 
 /// The failure times of Section 5.

@@ -3,7 +3,7 @@
 use ulna::control::compensation::FreeTorque;
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::proof::random::SplitMix64;
-use ulna::{Compensation, Failure, JointLimits, LockedJoints, SerialChain, TaskRows, Trapezoid};
+use ulna::{Compensation, Failure, JointLimits, LockedJoints, PointToPoint, SerialChain, TaskRows};
 use ulna_study::search::{
     Acts, Assessment, Certificate, Fairness, ForcePriority, LowerAll, Objective, Operation,
     OperationOptions, Optimum, Scope, least_impact, lower_every_joint, optimal,
@@ -223,7 +223,7 @@ fn of_random_arms_exactly_one_is_true() {
             }
             let start = SVector::<f64, N>::from_fn(|_, _| 2.0 * random.symmetric());
             let goal = start.map(|q| q + random.symmetric());
-            let motion = Trapezoid::new(start, goal, 4.0, 1.0, &JointLimits::none()).unwrap();
+            let motion = PointToPoint::new(start, goal, 4.0, 1.0, &JointLimits::none()).unwrap();
             let failure = Failure {
                 joints: LockedJoints::new(locks).unwrap(),
                 time: 2.0 + 1.9 * random.symmetric(),

@@ -1,5 +1,5 @@
 use ulna::nalgebra::{SVector, Vector6};
-use ulna::{Compensation, Failure, JointLimits, LockedJoints, Trapezoid};
+use ulna::{Compensation, Failure, JointLimits, LockedJoints, PointToPoint};
 use ulna_generated::Planar2r;
 use ulna_study::search::{
     CoefficientLaw, ForcePriority, Objective, Operation, OperationOptions, Stepwise,
@@ -22,7 +22,7 @@ fn the_least_that_keeping_the_force_can_leave() {
 #[test]
 fn without_a_null_space_no_law_finds_a_compensation() {
     let (start, goal) = (SVector::from([0.2, 1.0]), SVector::from([1.1, 0.4]));
-    let motion = Trapezoid::new(start, goal, 2.0, 0.5, &JointLimits::none()).unwrap();
+    let motion = PointToPoint::new(start, goal, 2.0, 0.5, &JointLimits::none()).unwrap();
     let wrench = |_| Vector6::new(1.0, 2.0, 0.0, 0.0, 0.0, 0.0);
     for joint in 0..2 {
         let joints = LockedJoints::new(&[joint]).unwrap();

@@ -1,7 +1,7 @@
 //! A compensation for failures of which neither joint nor time is known, the best constants, and the recourse after a lock.
 
 use ulna::nalgebra::{SVector, Vector6};
-use ulna::{Failure, JointLimits, LockedJoints, Trapezoid};
+use ulna::{Failure, JointLimits, LockedJoints, PointToPoint};
 use ulna_generated::{Oblique6, Ssrms};
 use ulna_study::search::{
     CoefficientLaw, ForcePriority, Moment, Operation, OperationOptions, RobustObjective,
@@ -251,7 +251,7 @@ fn a_task_that_takes_all_joints_leaves_it_nothing_but_the_budget() {
         SVector::repeat(0.3),
         SVector::from([0.9, 0.5, -0.4, 0.6, 0.1, 0.7]),
     );
-    let motion = Trapezoid::new(start, goal, 4.0, 1.0, &JointLimits::none()).unwrap();
+    let motion = PointToPoint::new(start, goal, 4.0, 1.0, &JointLimits::none()).unwrap();
     let wrench = |_| Vector6::new(5.0, 0.0, -5.0, 0.1, 0.0, 0.0);
     let operation = |joint: usize| {
         let joints = LockedJoints::new(&[joint]).unwrap();

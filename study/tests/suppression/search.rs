@@ -1,8 +1,8 @@
 use ulna::control::failure::impact_torque;
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::{
-    Arm, Compensation, Controller, Failure, JointLimits, LockedJoints, SerialChain, Status,
-    Trajectory, Trapezoid,
+    Arm, Compensation, Controller, Failure, JointLimits, LockedJoints, PointToPoint, SerialChain,
+    Status, Trajectory,
 };
 use ulna_generated::Ssrms;
 use ulna_study::search::{
@@ -256,7 +256,7 @@ fn arms_without_freedom_to_spare_are_searched_too() {
     fn check<const N: usize>(chain: &SerialChain<N>, name: &str) {
         let start = SVector::<f64, N>::from_fn(|i, _| 0.3 + 0.4 * i as f64);
         let goal = start.add_scalar(0.5);
-        let motion = Trapezoid::new(start, goal, 4.0, 1.0, &JointLimits::none()).unwrap();
+        let motion = PointToPoint::new(start, goal, 4.0, 1.0, &JointLimits::none()).unwrap();
         let failure = Failure {
             joints: LockedJoints::new(&[N - 1]).unwrap(),
             time: 2.0,

@@ -1,6 +1,6 @@
 use ulna::control::trajectory::TrajectoryError;
 use ulna::nalgebra::{SVector, Vector6};
-use ulna::{Arm, JointLimits, Profile, ProfileShape, Trajectory, Trapezoid};
+use ulna::{Arm, JointLimits, PointToPoint, Profile, ProfileShape, Trajectory};
 use ulna_study::tool_path::{StraightLine, ToolPath};
 
 use crate::arms::{chain, paper_like_motion, ssrms};
@@ -43,7 +43,7 @@ fn trapezoid_refuses_what_cannot_be_executed() {
     let start = SVector::from([0.0, 0.0]);
     let goal = SVector::from([1.0, -4.0]);
     let free = JointLimits::none();
-    let planned = |duration, blend, limits| Trapezoid::new(start, goal, duration, blend, limits);
+    let planned = |duration, blend, limits| PointToPoint::new(start, goal, duration, blend, limits);
     assert_eq!(
         planned(0.0, 0.1, &free),
         Err(TrajectoryError::Duration(0.0))
@@ -61,11 +61,11 @@ fn trapezoid_refuses_what_cannot_be_executed() {
     assert!(planned(2.0, 1.0, &free).is_ok());
     let bad = SVector::from([0.0, f64::INFINITY]);
     assert_eq!(
-        Trapezoid::new(start, bad, 2.0, 0.5, &free),
+        PointToPoint::new(start, bad, 2.0, 0.5, &free),
         Err(TrajectoryError::NotFinite("goal"))
     );
     let (far, away) = (SVector::repeat(1e308), SVector::repeat(-1e308));
-    assert!(Trapezoid::<2>::new(far, away, 2.0, 0.5, &free).is_err());
+    assert!(PointToPoint::<2>::new(far, away, 2.0, 0.5, &free).is_err());
     let slow = JointLimits {
         velocity: SVector::from([1.0, 2.0]),
         ..free

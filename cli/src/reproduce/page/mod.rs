@@ -11,6 +11,7 @@ mod references;
 mod searches;
 mod structure;
 mod verdict;
+mod worse;
 
 use std::fmt::{self, Write};
 
@@ -92,6 +93,7 @@ fn section(
     searches::unfinished(page, &studies)?;
     let beside = (&findings.locks[..], &asked[..]);
     findings::suppression_against_force(page, scenario, experiment, &studies, beside)?;
+    worse::write(page, &studies)?;
     if experiment.section() == scenario.experiments()[0].section() {
         findings::price_of_suppression(page, &studies)?;
         searches::in_steps(page, scenario, &studies)?;
@@ -148,12 +150,12 @@ fn files(page: &mut String) -> fmt::Result {
          - `impact.csv`: a row for each case and joint, the search in steps among them.\n\
          - `search.csv`: the searches side by side: how they ended, gap, iterations, seconds, quality.\n\
          - `frontier.csv`: the points of the frontiers.\n\
+         - `ablation.csv`: the laws with other fields in the place of ∇w_D, and the optimum on one side of the lock alone.\n\
          - `limits.csv`: what the rated torques cost, joint by joint, and what cuts which coefficient.\n\
          - `plan_steps.csv`: the torque steps of the plan itself with each profile, and those of the locks.\n\
-         - `truth.csv`, `convergence.csv`: the simulated locks.\n\
-         - `sweep.csv`, `verdict.csv`: the locks simulated with all gains and rotors, and which compensation lowers what is felt of them.\n\
          - `structure.csv`: what each joint transmits at the lock, along its axis and off it.\n\
          - `simulation.csv`, `convergence.csv`: the simulated locks.\n\
+         - `sweep.csv`, `verdict.csv`: the locks simulated with all gains and rotors, and which compensation lowers what is felt of them.\n\
          - `series/`: torques and forces over time.\n\
          - `figures/`: SVG, and PNG of the same."
     )
