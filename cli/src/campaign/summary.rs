@@ -133,7 +133,7 @@ impl<'s> Summary<'s> {
     /// Medians, a line for each joint: the impacts, and the force errors of the laws that bend the tool force.
     pub(super) fn console(&self) -> String {
         let names = self.laws.iter().map(|law| law.name().to_owned());
-        let titles = std::iter::once("before".to_owned()).chain(names).collect();
+        let titles: Vec<_> = std::iter::once("before".to_owned()).chain(names).collect();
         let impacts = |joint: &JointSummary| {
             let after = joint.laws.iter().map(|law| law.impact.median);
             std::iter::once(joint.before.median).chain(after).collect()
@@ -141,14 +141,14 @@ impl<'s> Summary<'s> {
         let mut parts = vec![
             self.heading(),
             "median impact, norm over the healthy joints, N m".to_owned(),
-            self.lines(titles, impacts),
+            self.lines(&titles, impacts),
         ];
         let bending: Vec<_> = self.laws.iter().filter(|law| law.bends_force()).collect();
         if !bending.is_empty() {
             let titles = bending
                 .iter()
                 .flat_map(|law| [format!("{law} at lock"), "at worst".to_owned()]);
-            let titles = std::iter::once("asked".to_owned()).chain(titles).collect();
+            let titles: Vec<_> = std::iter::once("asked".to_owned()).chain(titles).collect();
             let forces = |joint: &JointSummary| {
                 let laws = joint.laws.iter();
                 let laws = laws.filter(|law| bending.iter().any(|name| name.name() == law.law));
@@ -161,7 +161,7 @@ impl<'s> Summary<'s> {
             parts.push(
                 "\nmedian force error at the lock and at worst, and what is asked, N".to_owned(),
             );
-            parts.push(self.lines(titles, forces));
+            parts.push(self.lines(&titles, forces));
         }
         parts.join("\n")
     }
@@ -169,7 +169,7 @@ impl<'s> Summary<'s> {
     /// A head, and a line for each joint and for all.
     fn lines(
         &self,
-        titles: Vec<String>,
+        titles: &[String],
         values: impl Fn(&JointSummary) -> Vec<Option<f64>>,
     ) -> String {
         let widths: Vec<_> = titles.iter().map(|title| title.len().max(10)).collect();
@@ -184,7 +184,7 @@ impl<'s> Summary<'s> {
             let cells = values(joint).into_iter().map(text).collect();
             line(&joint.head(), cells)
         });
-        let rows: Vec<_> = std::iter::once(line("joint", titles.clone()))
+        let rows: Vec<_> = std::iter::once(line("joint", titles.to_vec()))
             .chain(rows)
             .collect();
         rows.join("\n")
