@@ -1,5 +1,6 @@
 //! What a simulated lock depends on besides the arm, as text: servo, rotors, brake.
 
+use ulna_study::Scenario;
 use ulna_study::experiment::{Rotors, Sweep, Truth};
 
 /// Servo, rotors and brake of a simulated lock.
@@ -9,6 +10,16 @@ pub(crate) struct Setting {
     brake_time: f64,
     detection: f64,
     lead: f64,
+}
+
+/// Rotors, brake and lead of a scenario, such as "no rotors, brake 0.1 s, compensation for 0.25 s before".
+pub(crate) fn besides_servo(scenario: &Scenario) -> String {
+    format!(
+        "{}, brake {} s, compensation for {} s before",
+        titled_rotors(&Rotors::of(&scenario.motors().reflected_inertia())),
+        scenario.brake().duration(),
+        scenario.servo().lead()
+    )
 }
 
 impl Setting {

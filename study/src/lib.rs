@@ -22,15 +22,18 @@
 //! - [`search`]: the coefficients k_d of Eq. 21 and 28 by the paper's steps and exactly, and the optimal law, for a motion of your own.
 //! - [`simulation`]: what an arm really does when a joint is braked and locked.
 //! - [`assess`]: every law over failures for which it was not tuned.
+//! - [`laws`]: what the laws are called, here and in scenarios.
 //! - [`experiment`]: cases, tables and series of Section 5; campaigns of random motions.
 //!
 //! There are no features.
 
 pub mod assess;
 pub mod experiment;
+pub mod laws;
 pub mod scenario;
 pub mod search;
 pub mod simulation;
 pub mod tool_path;
 
+pub use laws::{LawName, LawSet};
 pub use scenario::Scenario;

@@ -6,12 +6,12 @@ use std::sync::OnceLock;
 use ulna::control::compensation::Projector;
 use ulna::{Arm, LockedJoints, Trajectory};
 use ulna_generated::Ssrms;
-use ulna_study::Scenario;
 use ulna_study::experiment::{
     Campaign, ExperimentRunner, Rotors, SearchMethod, Sweep, Truth, TruthRun, Verdict,
 };
 use ulna_study::scenario::KnownArm;
 use ulna_study::simulation::Ending;
+use ulna_study::{LawName, Scenario};
 
 const PAPER_LIKE: &str = include_str!("../../scenarios/paper_like.toml");
 const KNOWN: &[KnownArm] = &[KnownArm {
@@ -208,7 +208,8 @@ fn the_projector_reaches_searches_rollouts_and_simulations() {
     assert!(run(&in_motion, Some(method)).tool_acceleration < 1e-9);
     let [a, b] = scenarios.each_ref().map(|scenario| {
         let case = Campaign::new(&Ssrms, scenario).unwrap().case(29);
-        case.outcome.unwrap().projected.impact
+        let outcome = case.outcome.unwrap();
+        outcome.law(LawName::Projected).unwrap().unwrap().impact
     });
     assert!((a / b - 1.0).abs() > 1e-6, "{a} {b}");
 }

@@ -11,7 +11,7 @@ use std::time::Instant;
 use clap::Args;
 use rayon::prelude::*;
 use ulna_study::Scenario;
-use ulna_study::assess::{AssessedCase, Assessment, FailureGrid, Tuning};
+use ulna_study::assess::{Assessment, FailureGrid, GroundTruth, Tuning};
 use ulna_study::experiment::{AnyArm, ExperimentError};
 
 use crate::arms::{ForArm, with_arm};
@@ -44,6 +44,10 @@ pub(crate) struct Arguments {
 struct Findings<'s> {
     scenario: &'s Scenario,
     assessment: Assessment,
+    /// Some of the failures simulated, gain by gain.
+    felt: Vec<GroundTruth>,
+    /// How many failures those are.
+    simulated: usize,
     /// s.
     times: Vec<f64>,
     tuning: Tuning,
@@ -97,9 +101,17 @@ impl<'s> ForArm for Work<'s> {
         let clock = Instant::now();
         let grid = FailureGrid::new(arm, self.0)?;
         let laws = grid.laws()?;
-        let cases = everything(grid.len(), &|failure| grid.cases(&laws, failure))?;
+        let failures: Vec<usize> = (0..grid.len()).collect();
+        let cases = everything(&failures, &|failure| grid.cases(&laws, failure))?;
+        let failures = grid.simulated();
+        let felt = grid.gains().into_iter().map(|gain| {
+            let felt = everything(&failures, &|failure| grid.felt(&laws, failure, gain))?;
+            Ok(GroundTruth::new(&laws, gain, &felt))
+        });
         Ok(Findings {
             scenario: self.0,
+            felt: felt.collect::<Result<_, ExperimentError>>()?,
+            simulated: failures.len(),
             assessment: Assessment::new(&laws, cases),
             times: grid.times().to_vec(),
             tuning: grid.tuning(),
@@ -111,13 +123,10 @@ impl<'s> ForArm for Work<'s> {
     }
 }
 
-/// What all laws make of one failure.
-type Cases = Result<Vec<Option<AssessedCase>>, ExperimentError>;
-
-/// Every failure, side by side: apart from the grid, so that this is not compiled for each number of joints.
-fn everything(
-    failures: usize,
-    cases: &(dyn Fn(usize) -> Cases + Sync),
-) -> Result<Vec<Vec<Option<AssessedCase>>>, ExperimentError> {
-    (0..failures).into_par_iter().map(cases).collect()
+/// Something of every failure, side by side: apart from the grid, so that this is not compiled for each number of joints.
+fn everything<T: Send>(
+    failures: &[usize],
+    one: &(dyn Fn(usize) -> Result<T, ExperimentError> + Sync),
+) -> Result<Vec<T>, ExperimentError> {
+    failures.par_iter().map(|failure| one(*failure)).collect()
 }

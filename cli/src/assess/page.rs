@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use ulna_study::assess::{Law, LawAssessment};
+use ulna_study::assess::{GroundTruth, Law, LawAssessment};
 
-use super::table::{columns, failure, heading, title};
+use super::table::{columns, failure, felt_columns, heading, name, simulated, title};
 use super::{Findings, MAPS, PAIRS};
 use crate::numbers::significant;
 
@@ -36,6 +36,22 @@ pub(super) fn write(findings: &Findings<'_>) -> String {
     if findings.has_pairs() {
         let _ = write!(page, "\n![the same for pairs of joints]({PAIRS}.png)\n");
     }
+    if findings.simulated > 0 {
+        let _ = write!(
+            page,
+            "\n## What the structure feels\n\n{}.\n",
+            simulated(findings)
+        );
+        for sentence in felt(findings) {
+            let _ = writeln!(page, "- {sentence}");
+        }
+        let (head, rows) = felt_columns(findings);
+        let _ = writeln!(page, "\n| {} |", head.join(" | "));
+        let _ = writeln!(page, "|{}", " --- |".repeat(head.len()));
+        for row in rows {
+            let _ = writeln!(page, "| {} |", row.join(" | "));
+        }
+    }
     let notes = findings.assessment.laws.iter();
     let notes: Vec<_> = notes.filter(|law| !law.note.is_empty()).collect();
     if !notes.is_empty() {
@@ -49,6 +65,9 @@ pub(super) fn write(findings: &Findings<'_>) -> String {
 
 /// A force error below it is rounding, N.
 const FORCE_ROUNDING: f64 = 1e-6;
+
+/// A change by less counts as none.
+const NOTABLE: f64 = 0.01;
 
 /// What can be said of this run.
 fn sentences(findings: &Findings<'_>) -> Vec<String> {
@@ -101,6 +120,30 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
         ));
     }
     said
+}
+
+/// Which law lowers what is felt at each gain.
+fn felt(findings: &Findings<'_>) -> Vec<String> {
+    let sentence = |truth: &GroundTruth| {
+        let laws = truth.laws.iter();
+        let laws = laws.filter(|law| !matches!(law.law, Law::None | Law::Limit));
+        let best = laws.min_by(|a, b| a.median_ratio.total_cmp(&b.median_ratio))?;
+        let name = name(best.law, best.force_budget);
+        Some(if best.median_ratio < 1.0 - NOTABLE {
+            format!(
+                "With a gain of {} rad/s the lowest median, {}, is that of {name}; its worst is {}.",
+                truth.gain,
+                significant(best.median_ratio),
+                significant(best.worst_ratio)
+            )
+        } else {
+            format!(
+                "With a gain of {} rad/s no law lowers the median by 1 %.",
+                truth.gain
+            )
+        })
+    };
+    findings.felt.iter().filter_map(sentence).collect()
 }
 
 fn tuned(law: &LawAssessment) -> String {

@@ -1,7 +1,7 @@
 //! `assess.json`: every law with every failure.
 
 use serde::Serialize;
-use ulna_study::assess::{AssessedCase, LawAssessment, Statistics, Tuning};
+use ulna_study::assess::{AssessedCase, FeltLaw, GroundTruth, LawAssessment, Statistics, Tuning};
 
 use super::Findings;
 
@@ -11,6 +11,27 @@ struct Results<'f> {
     scenario: &'f str,
     failure_times: &'f [f64],
     laws: Vec<LawEntry<'f>>,
+    /// Some of the failures simulated, gain by gain.
+    ground_truth: Vec<GroundTruthEntry>,
+}
+
+#[derive(Serialize)]
+struct GroundTruthEntry {
+    /// rad/s
+    gain: f64,
+    laws: Vec<FeltEntry>,
+}
+
+/// Ratios of the step that is transmitted with the law to that without.
+#[derive(Serialize)]
+struct FeltEntry {
+    law: &'static str,
+    force_budget: Option<f64>,
+    count: usize,
+    unfinished: usize,
+    median_ratio: f64,
+    worst_ratio: f64,
+    share_worse: f64,
 }
 
 #[derive(Serialize)]
@@ -76,10 +97,27 @@ pub(super) fn json(findings: &Findings<'_>) -> anyhow::Result<Vec<u8>> {
         scenario: findings.scenario.name(),
         failure_times: &findings.times,
         laws: laws.collect(),
+        ground_truth: findings.felt.iter().map(ground_truth).collect(),
     };
     let mut json = serde_json::to_vec(&results)?;
     json.push(b'\n');
     Ok(json)
+}
+
+fn ground_truth(truth: &GroundTruth) -> GroundTruthEntry {
+    let law = |felt: &FeltLaw| FeltEntry {
+        law: felt.law.name(),
+        force_budget: felt.force_budget,
+        count: felt.count,
+        unfinished: felt.unfinished,
+        median_ratio: felt.median_ratio,
+        worst_ratio: felt.worst_ratio,
+        share_worse: felt.share_worse,
+    };
+    GroundTruthEntry {
+        gain: truth.gain,
+        laws: truth.laws.iter().map(law).collect(),
+    }
 }
 
 fn law(law: &LawAssessment) -> LawEntry<'_> {

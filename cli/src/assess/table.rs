@@ -9,10 +9,15 @@ use super::Findings;
 use crate::columns::plain;
 use crate::numbers::significant;
 use crate::reproduce::words::joints_named;
+use crate::setting::besides_servo;
 
 /// What a law is called where people read.
 pub(crate) fn title(law: &LawAssessment) -> String {
-    let title = match law.law {
+    name(law.law, law.force_budget)
+}
+
+pub(super) fn name(law: Law, force_budget: Option<f64>) -> String {
+    let title = match law {
         Law::None => "none",
         Law::PerJoint => "Eq. 16",
         Law::Projected => "Eq. 20",
@@ -24,7 +29,7 @@ pub(crate) fn title(law: &LawAssessment) -> String {
         Law::Robust => "robust",
         Law::Limit => "limit, force kept",
     };
-    match law.force_budget {
+    match force_budget {
         Some(budget) => format!("{title}, {budget} N"),
         None => title.to_owned(),
     }
@@ -125,5 +130,55 @@ pub(super) fn write(findings: &Findings<'_>, out: &mut dyn Write) -> io::Result<
     for row in rows {
         table.add_row(row);
     }
-    writeln!(out, "\n{}", plain(table, &[0, 2]))
+    writeln!(out, "\n{}", plain(table, &[0, 2]))?;
+    if findings.simulated > 0 {
+        writeln!(out, "\n{}", simulated(findings))?;
+        let (head, rows) = felt_columns(findings);
+        let mut table = Table::new();
+        table.set_header(head);
+        for row in rows {
+            table.add_row(row);
+        }
+        writeln!(out, "{}", plain(table, &[0]))?;
+    }
+    Ok(())
+}
+
+/// What stands above the second table.
+pub(super) fn simulated(findings: &Findings<'_>) -> String {
+    format!(
+        "{} of the failures simulated ({}): the step that the healthy joints really transmit, with the law to without",
+        findings.simulated,
+        besides_servo(findings.scenario)
+    )
+}
+
+/// The columns of the simulated failures: median, worst and made worse, gain by gain.
+pub(super) fn felt_columns(findings: &Findings<'_>) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut head = vec!["law".to_owned()];
+    for truth in &findings.felt {
+        head.push(format!("gain {} rad/s: median", truth.gain));
+        head.extend(["worst", "made worse"].map(str::to_owned));
+    }
+    let laws = findings.felt.first().map_or(&[][..], |truth| &truth.laws);
+    let rows = laws.iter().enumerate().map(|(index, law)| {
+        let mut row = vec![name(law.law, law.force_budget)];
+        for felt in findings
+            .felt
+            .iter()
+            .filter_map(|truth| truth.laws.get(index))
+        {
+            let unfinished = match felt.unfinished {
+                0 => String::new(),
+                count => format!(" ({count} fling the arm off)"),
+            };
+            row.extend([
+                significant(felt.median_ratio),
+                significant(felt.worst_ratio),
+                percent(felt.share_worse) + &unfinished,
+            ]);
+        }
+        row
+    });
+    (head, rows.collect())
 }

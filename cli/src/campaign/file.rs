@@ -19,6 +19,8 @@ pub(super) struct CampaignFile {
     whole: PathBuf,
     partial: PathBuf,
     recorder: Recorder,
+    /// The first line.
+    header: String,
     rows: Vec<Row>,
     cases: u64,
     complete: bool,
@@ -30,6 +32,7 @@ impl CampaignFile {
     pub(super) fn open(
         folder: &Path,
         cases: u64,
+        header: String,
         identity: &Identity,
         remake: impl Fn(u64) -> Row,
     ) -> anyhow::Result<Self> {
@@ -40,6 +43,7 @@ impl CampaignFile {
             whole,
             partial,
             recorder: Recorder::new(folder, identity.clone()),
+            header,
             rows: Vec::new(),
             cases,
             complete: false,
@@ -47,11 +51,10 @@ impl CampaignFile {
         // A whole file that is being continued is whole still, but the other has more rows.
         let paths = [file.partial.clone(), file.whole.clone()];
         let Some(path) = paths.iter().find(|path| path.exists()) else {
-            let header = rows::header::<Row>()?;
-            file.recorder.add(header.as_bytes(), 0);
+            file.recorder.add(file.header.as_bytes(), 0);
             // In this order: rows without their record would be refused.
             file.recorder.write()?;
-            write_whole(&file.partial, header.as_bytes())?;
+            write_whole(&file.partial, file.header.as_bytes())?;
             return Ok(file);
         };
         let text = file.take_up(path, folder, identity, remake)?;
@@ -72,9 +75,9 @@ impl CampaignFile {
         remake: impl Fn(u64) -> Row,
     ) -> anyhow::Result<Vec<u8>> {
         let mut text = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-        if !text.starts_with(rows::header::<Row>()?.as_bytes()) {
+        if !text.starts_with(self.header.as_bytes()) {
             bail!(
-                "{} is no file of a campaign, or of an older one with other columns; {}",
+                "{} is no file of a campaign, or of one with other columns, by other `laws` or an older program; {}",
                 path.display(),
                 remedy()
             );
@@ -89,7 +92,7 @@ impl CampaignFile {
         text.truncate(recorded);
         let rows = Some(&text).filter(|text| record.is_of(text));
         let rows = rows
-            .and_then(|text| row::read(text))
+            .and_then(|text| row::read(text).ok())
             .with_context(changed)?;
         if rows.len() as u64 != record.rows {
             bail!(changed());

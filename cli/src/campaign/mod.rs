@@ -26,7 +26,7 @@ use crate::output::{self, Files, FolderLock};
 use crate::{Verdict, console};
 use file::CampaignFile;
 use record::Identity;
-pub(crate) use row::{LAWS, Quantity, Row};
+pub(crate) use row::{LawCells, Row};
 use summary::Summary;
 pub(crate) use summary::median;
 
@@ -76,7 +76,8 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     // Held until the figures are there too.
     let (rows, _lock) = pool.install(|| with_arm(scenario.arm(), work))??;
 
-    let map = HeatMap::new(&rows, scenario.arm().joints().len());
+    let laws = scenario.campaign().laws();
+    let map = HeatMap::new(&rows, laws, scenario.arm().joints().len());
     let task = with_chain_of(scenario.arm(), TaskSize)?;
     let summary = Summary::new(&scenario, &rows, task);
     writeln!(out, "{}", summary.console())?;
@@ -122,7 +123,8 @@ impl ForArm for Work<'_> {
 
     fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
         let campaign = Campaign::new(arm, self.scenario)?;
-        self.all(&|index| Row::of(&campaign.case(index)))
+        let laws = self.scenario.campaign().laws();
+        self.all(&|index| Row::of(&campaign.case(index), laws))
     }
 }
 
@@ -137,7 +139,8 @@ impl Work<'_> {
         let lock = FolderLock::take(folder)?;
         let cases = self.scenario.campaign().cases();
         let identity = Identity::of(self.scenario);
-        let mut file = CampaignFile::open(folder, cases, &identity, make)?;
+        let header = row::header(self.scenario.campaign().laws())?;
+        let mut file = CampaignFile::open(folder, cases, header, &identity, make)?;
         let found = file.rows();
         if found > 0 {
             console::note(&format!(

@@ -16,12 +16,13 @@ use crate::output::{refuse_special, write_whole};
 pub(super) struct Identity {
     program: String,
     seed: u64,
-    /// SHA-256 of the arm, the motion, the random variation and the rated torques.
+    /// SHA-256 of the arm, the motion, the random variation, the rated torques, what a lock steps by and the projector.
     scenario: String,
 }
 
 impl Identity {
-    /// That of a scenario's campaign. What has no part in a row is left out: the number of cases, texts, figures.
+    /// That of a scenario's campaign. What has no part in a row is left out: the number of cases, texts, figures;
+    /// the laws too, of which the columns' names tell.
     pub(super) fn of(scenario: &Scenario) -> Self {
         let arm = match scenario.arm() {
             ScenarioArm::Known(arm) => format!("{arm:?}"),
@@ -36,7 +37,12 @@ impl Identity {
         );
         let first = scenario.experiments().first();
         let rated = first.map(Experiment::rated_torque);
-        let content = format!("{arm}\n{:?}\n{variation:?}\n{rated:?}", scenario.motion());
+        let step = first.map(|first| (first.step_time(), first.force().lock_step));
+        let projector = scenario.servo().projector();
+        let content = format!(
+            "{arm}\n{:?}\n{variation:?}\n{rated:?}\n{step:?}\n{projector:?}",
+            scenario.motion()
+        );
         Self {
             program: concat!("ulna ", env!("CARGO_PKG_VERSION")).to_owned(),
             seed: campaign.seed(),

@@ -1,136 +1,172 @@
 //! [`Row`]: a case as a line of `campaign.csv`.
 
+use anyhow::Context;
 use serde::{Deserialize, Serialize};
-use ulna_study::experiment::CampaignCase;
+use ulna_study::experiment::{CampaignCase, CampaignOutcome};
+use ulna_study::{LawName, LawSet};
 
-/// One case. Norms over the healthy joints, N m (N); forces in N; `None` where there is no outcome.
-#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+use crate::rows;
+
+/// One case. Its columns are those of [`CaseCells`], then those of [`LawCells`] for each of the campaign's laws.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(crate) struct Row {
+    pub(crate) case: CaseCells,
+    /// In the order of the campaign's laws. Laws that were not chosen have no columns.
+    pub(crate) laws: Vec<LawCells>,
+}
+
+/// What is so whatever law meets the case. Norms over the healthy joints, N m (N); forces in N; `None` where there is no outcome.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub(crate) struct CaseCells {
     pub(crate) case: u64,
     /// Counted from 1.
     pub(crate) failed_joint: usize,
     pub(crate) failure_time: f64,
     pub(crate) before: Option<f64>,
-    pub(crate) eq16: Option<f64>,
-    pub(crate) eq20: Option<f64>,
-    pub(crate) optimal: Option<f64>,
-    pub(crate) after_only: Option<f64>,
-    pub(crate) asked_force: Option<f64>,
-    pub(crate) eq16_force_error: Option<f64>,
-    pub(crate) eq16_max_force_error: Option<f64>,
-    pub(crate) eq20_force_error: Option<f64>,
-    pub(crate) eq20_max_force_error: Option<f64>,
-    pub(crate) optimal_force_error: Option<f64>,
-    pub(crate) optimal_max_force_error: Option<f64>,
-    pub(crate) after_only_force_error: Option<f64>,
-    pub(crate) after_only_max_force_error: Option<f64>,
-    /// How many healthy joints bear more than without compensation, law by law.
-    pub(crate) eq16_worse_joints: Option<usize>,
-    pub(crate) eq20_worse_joints: Option<usize>,
-    pub(crate) optimal_worse_joints: Option<usize>,
-    pub(crate) after_only_worse_joints: Option<usize>,
     pub(crate) locked_before: Option<f64>,
+    pub(crate) asked_force: Option<f64>,
+    /// "ok", or what went wrong: with the case, or with the laws that have no outcome.
     pub(crate) status: String,
 }
 
-impl Row {
-    /// A case as a row.
-    pub(super) fn of(case: &CampaignCase) -> Self {
-        let outcome = case.outcome.as_ref().ok();
+/// What a law does in a case. In the file the first has the law's name, the others begin with it.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub(crate) struct LawCells {
+    /// What it leaves over the healthy joints, N m (N).
+    pub(crate) impact: Option<f64>,
+    /// At the lock, N.
+    pub(crate) force_error: Option<f64>,
+    /// At worst over the motion, N.
+    pub(crate) max_force_error: Option<f64>,
+    /// How many healthy joints bear more than without compensation.
+    pub(crate) worse_joints: Option<usize>,
+}
+
+impl LawCells {
+    fn of(outcome: &CampaignOutcome) -> Self {
         Self {
-            case: case.index,
-            failed_joint: case.failed_joint + 1,
-            failure_time: case.failure_time,
-            before: outcome.map(|outcome| outcome.before),
-            eq16: outcome.map(|outcome| outcome.per_joint.impact),
-            eq20: outcome.map(|outcome| outcome.projected.impact),
-            optimal: outcome.map(|outcome| outcome.optimal.impact),
-            after_only: outcome.map(|outcome| outcome.after_only.impact),
-            asked_force: outcome.map(|outcome| outcome.asked_force),
-            eq16_force_error: outcome.map(|outcome| outcome.per_joint.force_error),
-            eq16_max_force_error: outcome.map(|outcome| outcome.per_joint.max_force_error),
-            eq20_force_error: outcome.map(|outcome| outcome.projected.force_error),
-            eq20_max_force_error: outcome.map(|outcome| outcome.projected.max_force_error),
-            optimal_force_error: outcome.map(|outcome| outcome.optimal.force_error),
-            optimal_max_force_error: outcome.map(|outcome| outcome.optimal.max_force_error),
-            after_only_force_error: outcome.map(|outcome| outcome.after_only.force_error),
-            after_only_max_force_error: outcome.map(|outcome| outcome.after_only.max_force_error),
-            eq16_worse_joints: outcome.map(|outcome| outcome.per_joint.worse_joints),
-            eq20_worse_joints: outcome.map(|outcome| outcome.projected.worse_joints),
-            optimal_worse_joints: outcome.map(|outcome| outcome.optimal.worse_joints),
-            after_only_worse_joints: outcome.map(|outcome| outcome.after_only.worse_joints),
-            locked_before: outcome.map(|outcome| outcome.locked_before),
-            status: match &case.outcome {
-                Ok(_) => "ok".to_owned(),
-                Err(error) => error.to_string(),
-            },
+            impact: Some(outcome.impact),
+            force_error: Some(outcome.force_error),
+            max_force_error: Some(outcome.max_force_error),
+            worse_joints: Some(outcome.worse_joints),
         }
     }
 }
 
-/// A quantity of a case.
-pub(crate) type Quantity = fn(&Row) -> Option<f64>;
-
-/// A law of a campaign: a row here is a column of every table and a panel of the figure.
-pub(crate) struct CampaignLaw {
-    /// In files.
-    pub(crate) key: &'static str,
-    pub(crate) title: &'static str,
-    /// What it leaves over the healthy joints, N m (N).
-    pub(crate) impact: Quantity,
-    /// How many healthy joints it makes worse.
-    pub(crate) worse: fn(&Row) -> Option<usize>,
-    /// Its force errors at the lock and at worst over the motion, N.
-    pub(crate) force: (Quantity, Quantity),
+impl Row {
+    /// A case of a campaign of `laws` as a row.
+    pub(super) fn of(case: &CampaignCase, laws: LawSet) -> Self {
+        let result = case.outcome.as_ref();
+        let found = result.ok();
+        let cells = |law: LawName| {
+            let outcome = found.and_then(|result| result.law(law));
+            outcome.and_then(|outcome| outcome.as_ref().ok())
+        };
+        let cells = laws.iter().map(|law| cells(law).map(LawCells::of));
+        Self {
+            case: CaseCells {
+                case: case.index,
+                failed_joint: case.failed_joint + 1,
+                failure_time: case.failure_time,
+                before: found.map(|result| result.before),
+                locked_before: found.map(|result| result.locked_before),
+                asked_force: found.map(|result| result.asked_force),
+                status: status(case),
+            },
+            laws: cells.map(Option::unwrap_or_default).collect(),
+        }
+    }
 }
 
-/// In the order of tables and panels.
-pub(crate) const LAWS: [CampaignLaw; 4] = [
-    CampaignLaw {
-        key: "eq16",
-        title: "Eq. 16",
-        impact: |row| row.eq16,
-        worse: |row| row.eq16_worse_joints,
-        force: (|row| row.eq16_force_error, |row| row.eq16_max_force_error),
-    },
-    CampaignLaw {
-        key: "eq20",
-        title: "Eq. 20",
-        impact: |row| row.eq20,
-        worse: |row| row.eq20_worse_joints,
-        force: (|row| row.eq20_force_error, |row| row.eq20_max_force_error),
-    },
-    CampaignLaw {
-        key: "optimal",
-        title: "optimal",
-        impact: |row| row.optimal,
-        worse: |row| row.optimal_worse_joints,
-        force: (
-            |row| row.optimal_force_error,
-            |row| row.optimal_max_force_error,
-        ),
-    },
-    CampaignLaw {
-        key: "after_only",
-        title: "after only",
-        impact: |row| row.after_only,
-        worse: |row| row.after_only_worse_joints,
-        force: (
-            |row| row.after_only_force_error,
-            |row| row.after_only_max_force_error,
-        ),
-    },
-];
+/// In a word, or in as many as are needed.
+fn status(case: &CampaignCase) -> String {
+    let result = match &case.outcome {
+        Ok(result) => result,
+        Err(error) => return error.to_string(),
+    };
+    let failed = result.laws.iter().filter_map(|(law, outcome)| {
+        let error = outcome.as_ref().err()?;
+        Some(format!("{law}: {error}"))
+    });
+    let failed: Vec<_> = failed.collect();
+    if failed.is_empty() {
+        "ok".to_owned()
+    } else {
+        failed.join("; ")
+    }
+}
+
+/// The columns' names of a campaign of `laws`.
+pub(super) fn header(laws: LawSet) -> anyhow::Result<String> {
+    let case = rows::header::<CaseCells>()?;
+    let cells = rows::header::<LawCells>()?;
+    let cells: Vec<_> = cells.trim_end().split(',').collect();
+    let of_laws = laws.iter().flat_map(|law| {
+        let names = cells.iter().enumerate().map(move |(i, cell)| match i {
+            0 => law.name().to_owned(),
+            _ => format!("{law}_{cell}"),
+        });
+        names.collect::<Vec<_>>()
+    });
+    let names = std::iter::once(case.trim_end().to_owned()).chain(of_laws);
+    Ok(names.collect::<Vec<_>>().join(",") + "\n")
+}
 
 /// The rows of a file with its header, if they are whole and numbered without a gap.
-pub(super) fn read(text: &[u8]) -> Option<Vec<Row>> {
+pub(super) fn read(text: &[u8]) -> anyhow::Result<Vec<Row>> {
     let mut rows = Vec::new();
-    for row in csv::Reader::from_reader(text).into_deserialize() {
-        let row: Row = row.ok()?;
-        if row.case != rows.len() as u64 {
-            return None;
-        }
-        rows.push(row);
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .from_reader(text);
+    // By the order of the columns: a law's names are no fields. The first line is the header's.
+    for row in reader.deserialize().skip(1) {
+        let row: Row = row?;
+        let number = rows.len() as u64;
+        (row.case.case == number)
+            .then(|| rows.push(row))
+            .context("the cases are not numbered in a row")?;
     }
-    Some(rows)
+    Ok(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        let laws = LawSet::of(&[LawName::OnLine, LawName::PerJoint]);
+        let row = |case: u64, before: Option<f64>, status: &str| Row {
+            case: CaseCells {
+                case,
+                failed_joint: 3,
+                failure_time: 0.5,
+                before,
+                locked_before: before,
+                asked_force: Some(1.0 / 3.0),
+                status: status.to_owned(),
+            },
+            laws: vec![
+                LawCells::default(),
+                LawCells {
+                    impact: Some(0.1),
+                    force_error: Some(1e-300),
+                    max_force_error: None,
+                    worse_joints: Some(4),
+                },
+            ],
+        };
+        let rows = vec![row(0, Some(0.25), "ok"), row(1, None, "no, \"not\" so")];
+        let text = header(laws).unwrap() + &rows::lines(&rows).unwrap();
+        let names = "case,failed_joint,failure_time,before,locked_before,asked_force,status,\
+                     eq16,eq16_force_error,eq16_max_force_error,eq16_worse_joints,\
+                     on_line,on_line_force_error,on_line_max_force_error,on_line_worse_joints\n";
+        assert!(text.starts_with(names), "{text}");
+        assert_eq!(read(text.as_bytes()).unwrap(), rows);
+        // A gap, and a line that is cut off.
+        let (head, tail) = text.split_once("\n0,").unwrap();
+        let (_, last) = tail.split_once('\n').unwrap();
+        assert!(read(format!("{head}\n{last}").as_bytes()).is_err());
+        assert!(read(&text.as_bytes()[..text.len() - 30]).is_err());
+    }
 }

@@ -1,9 +1,9 @@
 //! [`Summary`]: a campaign joint by joint, for the console, for `campaign.md` and for `campaign-summary.json`.
 
 use serde::Serialize;
-use ulna_study::Scenario;
+use ulna_study::{LawName, LawSet, Scenario};
 
-use super::row::{CampaignLaw, LAWS, Quantity, Row};
+use super::row::{CaseCells, LawCells, Row};
 use crate::numbers::significant;
 
 /// By so much, relative, an impact must grow before it counts as made worse: less is rounding.
@@ -24,6 +24,8 @@ pub(super) struct Summary<'s> {
     task: usize,
     all: JointSummary,
     joints: Vec<JointSummary>,
+    #[serde(skip)]
+    laws: LawSet,
 }
 
 /// The cases in which one joint locks, or all.
@@ -42,7 +44,10 @@ struct JointSummary {
 /// What a law does to these cases.
 #[derive(Serialize)]
 struct LawSummary {
+    /// Its name.
     law: &'static str,
+    /// Of the cases in which the limits leave it something.
+    outcomes: usize,
     /// What it leaves, N m (N).
     impact: Spread,
     /// What it leaves over what there was; of the cases that have an impact.
@@ -95,19 +100,22 @@ impl<'s> Summary<'s> {
     /// Of the `rows` of the campaign of `scenario`.
     pub(super) fn new(scenario: &'s Scenario, rows: &[Row], task: usize) -> Self {
         let joints = 1..=scenario.arm().joints().len();
+        let laws = scenario.campaign().laws();
         let of_joint = |joint: usize| {
-            let rows = rows.iter().filter(move |row| row.failed_joint == joint);
-            JointSummary::of(Some(joint), &rows.collect::<Vec<_>>())
+            let rows = rows.iter();
+            let rows = rows.filter(move |row| row.case.failed_joint == joint);
+            JointSummary::of(Some(joint), laws, &rows.collect::<Vec<_>>())
         };
         Self {
             scenario: scenario.name(),
             arm: scenario.arm().name(),
             seed: scenario.campaign().seed(),
             cases: rows.len(),
-            outcomes: rows.iter().filter(|row| row.before.is_some()).count(),
+            outcomes: rows.iter().filter(|row| row.case.before.is_some()).count(),
             task,
-            all: JointSummary::of(None, &rows.iter().collect::<Vec<_>>()),
+            all: JointSummary::of(None, laws, &rows.iter().collect::<Vec<_>>()),
             joints: joints.map(of_joint).collect(),
+            laws,
         }
     }
 
@@ -122,38 +130,64 @@ impl<'s> Summary<'s> {
         )
     }
 
-    /// Medians, a line for each joint.
+    /// Medians, a line for each joint: the impacts, and the force errors of the laws that bend the tool force.
     pub(super) fn console(&self) -> String {
-        let columns = |head: &str, cells: &[String]| {
-            let cells: Vec<_> = cells.iter().map(|cell| format!("{cell:>12}")).collect();
-            format!("{head:>6} {}", cells.join(" "))
+        let names = self.laws.iter().map(|law| law.name().to_owned());
+        let titles = std::iter::once("before".to_owned()).chain(names).collect();
+        let impacts = |joint: &JointSummary| {
+            let after = joint.laws.iter().map(|law| law.impact.median);
+            std::iter::once(joint.before.median).chain(after).collect()
         };
-        let mut lines = vec![
+        let mut parts = vec![
             self.heading(),
-            "medians: impact, norm over the healthy joints, N m; force error of Eq. 16 at the lock and at worst, of what is asked, N"
-                .to_owned(),
+            "median impact, norm over the healthy joints, N m".to_owned(),
+            self.lines(titles, impacts),
         ];
-        let titles = LAWS.iter().map(|law| law.title);
-        let titles = ["before"]
-            .into_iter()
-            .chain(titles)
-            .chain(["at lock", "at worst", "asked"]);
-        let titles: Vec<_> = titles.map(str::to_owned).collect();
-        lines.push(columns("joint", &titles));
-        let text = |value: Option<f64>| value.map_or_else(String::new, significant);
-        for joint in self.joints.iter().chain([&self.all]) {
-            let head = joint.head();
-            let impacts = joint.laws.iter().map(|law| law.impact.median);
-            // Of Eq. 16, the first.
-            let eq16 = joint.laws.first();
-            let cells = [joint.before.median].into_iter().chain(impacts).chain([
-                eq16.and_then(|law| law.force_error_at_lock.median),
-                eq16.and_then(|law| law.max_force_error.median),
-                joint.asked_force.median,
-            ]);
-            lines.push(columns(&head, &cells.map(text).collect::<Vec<_>>()));
+        let bending: Vec<_> = self.laws.iter().filter(|law| law.bends_force()).collect();
+        if !bending.is_empty() {
+            let titles = bending
+                .iter()
+                .flat_map(|law| [format!("{law} at lock"), "at worst".to_owned()]);
+            let titles = std::iter::once("asked".to_owned()).chain(titles).collect();
+            let forces = |joint: &JointSummary| {
+                let laws = joint.laws.iter();
+                let laws = laws.filter(|law| bending.iter().any(|name| name.name() == law.law));
+                let errors = laws
+                    .flat_map(|law| [law.force_error_at_lock.median, law.max_force_error.median]);
+                std::iter::once(joint.asked_force.median)
+                    .chain(errors)
+                    .collect()
+            };
+            parts.push(
+                "\nmedian force error at the lock and at worst, and what is asked, N".to_owned(),
+            );
+            parts.push(self.lines(titles, forces));
         }
-        lines.join("\n")
+        parts.join("\n")
+    }
+
+    /// A head, and a line for each joint and for all.
+    fn lines(
+        &self,
+        titles: Vec<String>,
+        values: impl Fn(&JointSummary) -> Vec<Option<f64>>,
+    ) -> String {
+        let widths: Vec<_> = titles.iter().map(|title| title.len().max(10)).collect();
+        let line = |head: &str, cells: Vec<String>| {
+            let cells = cells.iter().zip(&widths);
+            let cells = cells.map(|(cell, width)| format!(" {cell:>width$}"));
+            format!("{head:>6}{}", cells.collect::<String>())
+        };
+        let text = |value: Option<f64>| value.map_or_else(String::new, significant);
+        let rows = self.joints.iter().chain([&self.all]);
+        let rows = rows.map(|joint| {
+            let cells = values(joint).into_iter().map(text).collect();
+            line(&joint.head(), cells)
+        });
+        let rows: Vec<_> = std::iter::once(line("joint", titles.clone()))
+            .chain(rows)
+            .collect();
+        rows.join("\n")
     }
 
     /// `campaign.md`.
@@ -167,8 +201,8 @@ impl<'s> Summary<'s> {
             self.heading()
         );
         page += &self.room();
-        for law in LAWS.iter().enumerate() {
-            page += &self.sentence(law);
+        for (law, all) in self.laws.iter().zip(&self.all.laws) {
+            page += &self.sentence(law, all);
         }
         page += "\nMedian (worst) of the cases in which the joint locks:\n\n";
         page += "| joint | law | before | after | after / before | norm made worse, % | a joint made worse, % | force error at the lock, N | at worst over the motion, N | force asked, N |\n\
@@ -190,12 +224,22 @@ impl<'s> Summary<'s> {
                 );
             }
         }
-        page += "\n`optimal` is the least that keeps the tool force before and after the lock. \
-                 `after_only` does nothing before the lock and takes away after it what it can without a force at the tool.\n\n\
-                 ![Medians over joint and failure time](figures/campaign.svg)\n\n\
-                 *Medians over joint and failure time: impacts, and the force error of Eq. 16.*\n\n\
-                 The cases are in `campaign.csv`, the numbers of this page in `campaign-summary.json`; \
-                 `campaign.json` is the record by which an interrupted campaign goes on.\n";
+        page += "\nThe laws:\n\n";
+        for law in self.laws.iter() {
+            page += &format!("- `{law}`: {}.\n", law.meaning());
+        }
+        let bending = self.laws.iter().filter(|law| law.bends_force());
+        let bending: Vec<_> = bending.map(LawName::title).collect();
+        let forces = match &bending[..] {
+            [] => String::new(),
+            titles => format!(", and the force errors of {}", titles.join(" and ")),
+        };
+        page += &format!(
+            "\n![Medians over joint and failure time](figures/campaign.svg)\n\n\
+             *Medians over joint and failure time: impacts{forces}.*\n\n\
+             The cases are in `campaign.csv`, the numbers of this page in `campaign-summary.json`; \
+             `campaign.json` is the record by which an interrupted campaign goes on.\n"
+        );
         page
     }
 
@@ -218,8 +262,7 @@ impl<'s> Summary<'s> {
     }
 
     /// What a law does over all cases.
-    fn sentence(&self, (index, law): (usize, &CampaignLaw)) -> String {
-        let all = &self.all.laws[index];
+    fn sentence(&self, law: LawName, all: &LawSummary) -> String {
         let (Some(median), Some(worst)) = (all.ratio.median, all.ratio.worst) else {
             return String::new();
         };
@@ -232,9 +275,14 @@ impl<'s> Summary<'s> {
             all.max_force_error.text(),
             self.all.asked_force.text()
         );
+        let without = match self.outcomes - all.outcomes {
+            0 => String::new(),
+            count => format!(
+                " In {count} cases the rated torques leave it nothing, and it is not counted."
+            ),
+        };
         format!(
-            "- {} leaves {} % of the impact in the median and {} % at worst; it makes {worse} % of the cases worse, and a healthy joint in {a_joint} % of them.{force}\n",
-            law.title,
+            "- `{law}` leaves {} % of the impact in the median and {} % at worst; it makes {worse} % of the cases worse, and a healthy joint in {a_joint} % of them.{force}{without}\n",
             significant(100.0 * median),
             significant(100.0 * worst),
         )
@@ -246,39 +294,52 @@ fn percent(share: f64) -> String {
 }
 
 impl JointSummary {
-    fn of(failed_joint: Option<usize>, rows: &[&Row]) -> Self {
-        let spread = |quantity: Quantity| Spread::of(rows.iter().filter_map(|row| quantity(row)));
-        let law = |law: &CampaignLaw| {
-            let pairs = || {
-                let rows = rows.iter();
-                rows.filter_map(|row| Some((row.before?, (law.impact)(row)?)))
-            };
-            let ratios = pairs().filter(|(before, _)| *before > NONE);
-            let worse = pairs().filter(|(before, after)| *after > before * (1.0 + WORSE) + NONE);
-            let count = pairs().count();
-            let share = |cases: usize| (count > 0).then(|| cases as f64 / count as f64);
-            let joints = rows.iter().filter_map(|row| (law.worse)(row));
-            LawSummary {
-                law: law.key,
-                impact: spread(law.impact),
-                ratio: Spread::of(ratios.map(|(before, after)| after / before)),
-                made_worse: share(worse.count()),
-                a_joint_made_worse: share(joints.filter(|joints| *joints > 0).count()),
-                force_error_at_lock: spread(law.force.0),
-                max_force_error: spread(law.force.1),
-            }
+    fn of(failed_joint: Option<usize>, laws: LawSet, rows: &[&Row]) -> Self {
+        let spread = |quantity: fn(&CaseCells) -> Option<f64>| {
+            Spread::of(rows.iter().filter_map(|row| quantity(&row.case)))
         };
+        let laws = laws.iter().enumerate();
         Self {
             failed_joint,
-            outcomes: rows.iter().filter(|row| row.before.is_some()).count(),
-            before: spread(|row| row.before),
-            asked_force: spread(|row| row.asked_force),
-            laws: LAWS.iter().map(law).collect(),
+            outcomes: rows.iter().filter(|row| row.case.before.is_some()).count(),
+            before: spread(|case| case.before),
+            asked_force: spread(|case| case.asked_force),
+            laws: laws
+                .map(|(index, law)| LawSummary::of(law, index, rows))
+                .collect(),
         }
     }
 
     fn head(&self) -> String {
         self.failed_joint
             .map_or_else(|| "all".to_owned(), |joint| joint.to_string())
+    }
+}
+
+impl LawSummary {
+    /// Of the law whose cells are the `index`-th.
+    fn of(law: LawName, index: usize, rows: &[&Row]) -> Self {
+        let cells = || rows.iter().filter_map(|row| row.laws.get(index));
+        let spread =
+            |quantity: fn(&LawCells) -> Option<f64>| Spread::of(cells().filter_map(quantity));
+        let pairs = || {
+            let rows = rows.iter();
+            rows.filter_map(|row| Some((row.case.before?, row.laws.get(index)?.impact?)))
+        };
+        let ratios = pairs().filter(|(before, _)| *before > NONE);
+        let worse = pairs().filter(|(before, after)| *after > before * (1.0 + WORSE) + NONE);
+        let outcomes = pairs().count();
+        let share = |cases: usize| (outcomes > 0).then(|| cases as f64 / outcomes as f64);
+        let joints = cells().filter_map(|cells| cells.worse_joints);
+        Self {
+            law: law.name(),
+            outcomes,
+            impact: spread(|cells| cells.impact),
+            ratio: Spread::of(ratios.map(|(before, after)| after / before)),
+            made_worse: share(worse.count()),
+            a_joint_made_worse: share(joints.filter(|joints| *joints > 0).count()),
+            force_error_at_lock: spread(|cells| cells.force_error),
+            max_force_error: spread(|cells| cells.max_force_error),
+        }
     }
 }

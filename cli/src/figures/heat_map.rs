@@ -1,4 +1,4 @@
-//! The impact over joint and failure time, before and after, and the force error of Eq. 16: the picture of a campaign.
+//! The impact over joint and failure time, before and after, and the force errors of laws that bend the force: the picture of a campaign.
 
 use std::cmp::Ordering;
 
@@ -7,19 +7,29 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{Color, RGBColor};
+use ulna_study::LawSet;
 
 use super::chart::{Axes, grid_panel, tick};
 use super::style::{BLACK, Pen, WHITE, anchored};
 use super::{Area, Drawn, Figure};
-use crate::campaign::{LAWS, Quantity, Row, median};
+use crate::campaign::{LawCells, Row, median};
 
 /// Medians over the cases of each joint and failure time.
 pub(crate) struct HeatMap<'r> {
     /// By joint, and then by failure time.
     rows: Vec<&'r Row>,
+    laws: LawSet,
     joints: usize,
     /// Ascending.
     times: Vec<f64>,
+}
+
+/// A quantity of a case.
+type Quantity = Box<dyn Fn(&Row) -> Option<f64>>;
+
+/// Of the law whose cells are the `index`-th.
+fn of_law(index: usize, quantity: fn(&LawCells) -> Option<f64>) -> Quantity {
+    Box::new(move |row| row.laws.get(index).and_then(quantity))
 }
 
 /// Panels with one colour scale.
@@ -29,47 +39,54 @@ struct Group {
     scale: [&'static str; 2],
 }
 
-/// Impacts, and force errors.
-fn groups() -> [Group; 2] {
-    let mut impacts: Vec<(String, Quantity)> =
-        vec![("without suppression".to_owned(), |row| row.before)];
-    impacts.extend(LAWS.iter().map(|law| (law.title.to_owned(), law.impact)));
-    // Of Eq. 16, the first: the others keep the tool force as far as the rated torques let them.
-    let forces = LAWS.iter().take(1).flat_map(|law| {
-        let (at_lock, most) = law.force;
-        [
-            (format!("{}: force error at the lock", law.title), at_lock),
-            (format!("{}: force error at worst", law.title), most),
-        ]
-    });
-    [
+/// Impacts, and the force errors of laws that bend the force: the others keep it as far as the rated torques let them.
+fn groups(laws: LawSet) -> Vec<Group> {
+    let mut impacts: Vec<(String, Quantity)> = vec![(
+        "without suppression".to_owned(),
+        Box::new(|row| row.case.before),
+    )];
+    let mut forces: Vec<(String, Quantity)> = Vec::new();
+    for (index, law) in laws.iter().enumerate() {
+        let title = law.title();
+        impacts.push((title.to_owned(), of_law(index, |cells| cells.impact)));
+        if law.bends_force() {
+            let at_lock = of_law(index, |cells| cells.force_error);
+            let at_worst = of_law(index, |cells| cells.max_force_error);
+            forces.push((format!("{title}: force error at the lock"), at_lock));
+            forces.push((format!("{title}: force error at worst"), at_worst));
+        }
+    }
+    let groups = [
         Group {
             panels: impacts,
             scale: ["median impact", "in N\u{b7}m"],
         },
         Group {
-            panels: forces.collect(),
+            panels: forces,
             scale: ["median error", "in N"],
         },
-    ]
+    ];
+    let groups = groups.into_iter();
+    groups.filter(|group| !group.panels.is_empty()).collect()
 }
 
 impl<'r> HeatMap<'r> {
-    /// Of the cases of a campaign of an arm with so many joints.
-    pub(crate) fn new(rows: &'r [Row], joints: usize) -> Self {
-        let mut times: Vec<_> = rows.iter().map(|row| row.failure_time).collect();
+    /// Of the cases of a campaign of `laws`, of an arm with so many joints.
+    pub(crate) fn new(rows: &'r [Row], laws: LawSet, joints: usize) -> Self {
+        let mut times: Vec<_> = rows.iter().map(|row| row.case.failure_time).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
         let mut rows: Vec<_> = rows.iter().collect();
-        rows.sort_by(|a, b| order(a, b.failed_joint, b.failure_time));
+        rows.sort_by(|a, b| order(a, b.case.failed_joint, b.case.failure_time));
         Self {
             rows,
+            laws,
             joints,
             times,
         }
     }
 
-    fn cell(&self, joint: usize, time: f64, quantity: Quantity) -> Option<f64> {
+    fn cell(&self, joint: usize, time: f64, quantity: &Quantity) -> Option<f64> {
         let first = |past: Ordering| {
             self.rows
                 .partition_point(|row| order(row, joint, time) < past)
@@ -80,7 +97,7 @@ impl<'r> HeatMap<'r> {
 
     /// The ends of the colour scale of a group, powers of ten: four decades up to the largest median in its panels.
     fn decades(&self, group: &Group) -> (f64, f64) {
-        let quantities = group.panels.iter().map(|(_, quantity)| *quantity);
+        let quantities = group.panels.iter().map(|(_, quantity)| quantity);
         let cells = quantities.flat_map(|quantity| {
             let joints = 1..=self.joints;
             joints.flat_map(move |joint| {
@@ -95,8 +112,8 @@ impl<'r> HeatMap<'r> {
 
 /// How a row stands to those of a joint and a failure time.
 fn order(row: &Row, joint: usize, time: f64) -> Ordering {
-    let joints = row.failed_joint.cmp(&joint);
-    joints.then(row.failure_time.total_cmp(&time))
+    let joints = row.case.failed_joint.cmp(&joint);
+    joints.then(row.case.failure_time.total_cmp(&time))
 }
 
 /// The colour of a value on the logarithmic scale; what is below it has the lowest colour.
@@ -110,13 +127,16 @@ const COLUMNS: usize = 2;
 
 impl Figure for HeatMap<'_> {
     fn size(&self) -> (u32, u32) {
-        let rows = groups().map(|group| group.panels.len().div_ceil(COLUMNS));
-        (1000, 280 * rows.iter().sum::<usize>() as u32)
+        let groups = groups(self.laws);
+        let rows = groups
+            .iter()
+            .map(|group| group.panels.len().div_ceil(COLUMNS));
+        (1000, 280 * rows.sum::<usize>() as u32)
     }
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
         let mut rest = area.clone();
-        for group in groups() {
+        for group in groups(self.laws) {
             let rows = group.panels.len().div_ceil(COLUMNS);
             let (upper, lower) = rest.split_vertically(pen.px(280 * rows as u32));
             rest = lower;
@@ -144,7 +164,7 @@ impl HeatMap<'_> {
             for joint in 1..=self.joints {
                 for time in &self.times {
                     let colour = self
-                        .cell(joint, *time, *quantity)
+                        .cell(joint, *time, quantity)
                         .map_or(WHITE, |value| colour(value, scale));
                     let y = joint as f64;
                     let cell = [(time - half, y - 0.5), (time + half, y + 0.5)];

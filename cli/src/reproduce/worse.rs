@@ -8,17 +8,25 @@ use ulna_study::search::WorseJoint;
 
 use super::words::{joints_named, significant};
 
-/// A line for each of `methods`, with the certificate's margin beside those that keep the tool force; below them what it says,
-/// and what any law could do that keeps the tool force.
+/// On the console: [`lines`].
 pub(super) fn write(
     study: &Study,
     methods: &[(SearchMethod, &str)],
     out: &mut dyn Write,
 ) -> io::Result<()> {
+    lines(study, methods)
+        .iter()
+        .try_for_each(|line| writeln!(out, " {line}"))
+}
+
+/// A line for each of `methods`, with the certificate's margin beside those that keep the tool force; below them what it says,
+/// and what any law could do that keeps the tool force.
+pub(super) fn lines(study: &Study, methods: &[(SearchMethod, &str)]) -> Vec<String> {
     let proof = match &study.force_kept.all {
         Ok(Lowerable::None { joints, margin, .. }) => Some((joints, significant(*margin))),
         _ => None,
     };
+    let mut lines = Vec::new();
     for (method, title) in methods {
         let case = study.case(*method);
         if case.search.is_err() {
@@ -29,19 +37,16 @@ pub(super) fn write(
             Some((_, margin)) if keeps_force => format!("; certificate {margin} N m per N"),
             _ => String::new(),
         };
-        writeln!(out, " {title}: {}{beside}", line(case))?;
+        lines.push(format!("{title}: {}{beside}", line(case)));
     }
     if let Some((joints, margin)) = &proof {
-        writeln!(
-            out,
-            " certificate: no law that keeps the tool force lowers {} all at once; a wrench that loads each with {margin} N m per N proves it",
+        lines.push(format!(
+            "certificate: no law that keeps the tool force lowers {} all at once; a wrench that loads each with {margin} N m per N proves it",
             joints_named(joints)
-        )?;
+        ));
     }
-    if let Some(limit) = limit(study) {
-        writeln!(out, " {limit}")?;
-    }
-    Ok(())
+    lines.extend(limit(study));
+    lines
 }
 
 /// "worse off: joint 4 at 2.50 times its step", or that no joint is.

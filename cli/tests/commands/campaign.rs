@@ -32,17 +32,29 @@ fn the_file_does_not_depend_on_the_number_of_threads() {
     assert_eq!(csv(&one), csv(&two));
     assert_eq!(stdout(&first), stdout(&second));
     let text = csv(&one);
+    let names: Vec<_> = text.lines().next().unwrap().split(',').collect();
+    let column = |name: &str| names.iter().position(|found| *found == name).unwrap();
     let rows: Vec<_> = text.lines().skip(1).collect();
     assert_eq!(rows.len(), 60);
     // Every joint in turn, and each case another motion.
     for (i, row) in rows.iter().enumerate() {
         let cells: Vec<_> = row.split(',').collect();
+        assert_eq!(cells.len(), names.len());
         assert_eq!(cells[0], i.to_string());
         assert_eq!(cells[1], (i % 7 + 1).to_string());
-        let number = |cell: usize| cells[cell].parse::<f64>().unwrap();
-        // No compensation that keeps the force leaves less than the optimal one.
-        assert!(number(6) <= number(5) * (1.0 + 1e-9), "{row}");
-        assert!(number(5) <= number(3) * (1.0 + 1e-9), "{row}");
+        let number = |name: &str| cells[column(name)].parse::<f64>().unwrap();
+        // No compensation that keeps the force leaves less than the limit.
+        for law in ["eq20", "after_only", "on_line"] {
+            assert!(
+                number("limit") <= number(law) * (1.0 + 1e-9),
+                "{law}: {row}"
+            );
+            assert!(
+                number(&format!("{law}_max_force_error")) < 1e-6,
+                "{law}: {row}"
+            );
+        }
+        assert!(number("eq20") <= number("before") * (1.0 + 1e-9), "{row}");
     }
     summary_is_of_the_rows(&one, &text);
     let befores: BTreeSet<_> = rows.iter().map(|row| row.split(',').nth(3)).collect();
@@ -80,7 +92,10 @@ fn summary_is_of_the_rows(output: &Path, csv: &str) {
         (0, "force_error_at_lock", "eq16_force_error"),
         (0, "max_force_error", "eq16_max_force_error"),
         (1, "max_force_error", "eq20_max_force_error"),
+        (2, "max_force_error", "kinematic_max_force_error"),
         (3, "impact", "after_only"),
+        (4, "impact", "on_line"),
+        (5, "impact", "limit"),
     ] {
         assert_eq!(
             first["laws"][law][key]["worst"],
@@ -102,14 +117,83 @@ fn summary_is_of_the_rows(output: &Path, csv: &str) {
     // After the lock alone there is less to do than before and after it, and never harm.
     for row in &rows {
         let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
-        assert!(number("optimal") <= number("after_only") * (1.0 + 1e-9));
+        assert!(number("limit") <= number("after_only") * (1.0 + 1e-9));
         assert!(number("after_only") <= number("before") * (1.0 + 1e-9));
         assert!(number("eq16_force_error") <= number("eq16_max_force_error") * (1.0 + 1e-9));
         assert!(number("eq20_max_force_error") < 1e-6);
     }
     let page = fs::read_to_string(output.join("campaign.md")).unwrap();
     assert!(page.contains("| 1 | `eq16` | "), "{page}");
-    assert!(page.contains("- after only leaves "), "{page}");
+    for law in [
+        "eq16",
+        "eq20",
+        "kinematic",
+        "after_only",
+        "on_line",
+        "limit",
+    ] {
+        let [sentence, legend] = [" leaves ", ": "].map(|then| format!("- `{law}`{then}"));
+        assert!(page.contains(&sentence) && page.contains(&legend), "{page}");
+    }
+    assert!(
+        page.contains("and the force errors of Eq. 16 and Eq. 16, kinematic"),
+        "{page}"
+    );
+}
+
+/// Laws that were not chosen have no columns, no lines and no panels; those of the others are the same, and no rows are mixed.
+#[test]
+fn chosen_laws_have_the_columns_and_are_those_of_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let [all, some] = ["all", "some"].map(|name| folder.path().join(name));
+    let scenario = folder.path().join("some.toml");
+    let text = include_str!("../../../scenarios/paper_like.toml");
+    let chosen = text.replacen(
+        "[campaign]\n",
+        "[campaign]\nlaws = [\"on_line\", \"eq20\"]\n",
+        1,
+    );
+    fs::write(&scenario, chosen).unwrap();
+    let scenario = scenario.to_str().unwrap();
+    let run = |output: &Path, cases: &str| {
+        let output = output.to_str().unwrap();
+        ulna(&["campaign", scenario, "--cases", cases, "--output", output])
+    };
+    campaign(&all, &["--cases", "20"]).code(0);
+    let out = stdout(&run(&some, "20").code(0));
+    let titles: Vec<_> = out.lines().nth(2).unwrap().split_whitespace().collect();
+    assert_eq!(titles, ["joint", "before", "eq20", "on_line"], "{out}");
+    assert!(!out.contains("force error"), "{out}");
+    let columns = |text: &str| -> Vec<(String, Vec<String>)> {
+        let mut lines = text.lines();
+        let names = lines.next().unwrap().split(',');
+        let rows: Vec<Vec<_>> = lines.map(|line| line.split(',').collect()).collect();
+        let column = |(i, name): (usize, &str)| {
+            let cells = rows.iter().map(|row| row[i].to_owned());
+            (name.to_owned(), cells.collect())
+        };
+        names.enumerate().map(column).collect()
+    };
+    let (of_all, of_some) = (columns(&csv(&all)), columns(&csv(&some)));
+    assert_eq!((of_all.len(), of_some.len()), (7 + 6 * 4, 7 + 2 * 4));
+    for column in of_some {
+        assert!(of_all.contains(&column), "{}", column.0);
+    }
+    let svg = fs::read_to_string(some.join("figures/campaign.svg")).unwrap();
+    assert!(svg.contains("on line") && !svg.contains("Eq. 16"));
+    let page = fs::read_to_string(some.join("campaign.md")).unwrap();
+    assert!(
+        page.contains("| all | `on_line` |") && !page.contains("eq16"),
+        "{page}"
+    );
+
+    // It goes on as any other, and beside other laws' rows there is nothing to add.
+    let err = stderr(&run(&some, "30").code(0));
+    assert!(err.contains("20 of 30 cases are in"), "{err}");
+    let before = csv(&all);
+    let err = stderr(&run(&all, "30").code(1).stdout(""));
+    assert!(err.contains("with other columns, by other `laws`"), "{err}");
+    assert_eq!(csv(&all), before);
 }
 
 #[test]
@@ -121,7 +205,7 @@ fn a_file_with_the_columns_of_an_older_program_is_refused() {
     fs::remove_file(output.join("campaign.csv")).unwrap();
     fs::write(output.join("campaign.csv.partial"), &old).unwrap();
     let err = stderr(&campaign(output, &["--cases", "10"]).code(1).stdout(""));
-    let message = "campaign.csv.partial is no file of a campaign, or of an older one with other columns; remove it";
+    let message = "campaign.csv.partial is no file of a campaign, or of one with other columns, by other `laws` or an older program; remove it";
     assert!(err.contains(message), "{err}");
 }
 
@@ -203,6 +287,11 @@ fn another_campaigns_file_is_refused_and_left() {
         ("force_spread = 20.0", "force_spread = 20.1"),
         ("rated_torque = \"none\"", "rated_torque = 1e6"),
         ("failure_times = 20 ", "failure_times = 21 "),
+        ("step_time = 0.0 ", "step_time = 1e-9 "),
+        (
+            "projector = \"static\" ",
+            "projector = \"dynamically_consistent\" ",
+        ),
         ("arm = \"ssrms\"", "arm = \"my_arm.toml\""),
     ] {
         let text = include_str!("../../../scenarios/paper_like.toml");

@@ -9,9 +9,9 @@ use super::law::{AssessedLaw, Law, Plan, Tactic, Tuning, torque};
 use crate::experiment::{AnyArm, ExperimentError, KNOT_PERIOD, rated_torque_of};
 use crate::scenario::{Experiment, PlannedMotion, Scenario};
 use crate::search::{
-    CoefficientLaw, Field, ForcePriority, Moment, Objective, Operation, OperationOptions,
-    RobustObjective, RobustOptions, SearchError, best_constant, cancel_per_joint, least_impact,
-    optimal, robust,
+    CoefficientLaw, Field, ForcePriority, Moment, Objective, OperatingPoint, Operation,
+    OperationOptions, RobustObjective, RobustOptions, SearchError, best_constant, cancel_per_joint,
+    least_impact, optimal, robust,
 };
 use ulna::Trajectory;
 use ulna::control::compensation::{self, Compensation, FreeTorque, OnLine, Projector, TaskPose};
@@ -89,6 +89,33 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         &self.locks
     }
 
+    /// What locks in failure number `failure`, and when, s: times change fastest.
+    pub fn failure(&self, failure: usize) -> (LockedJoints<N>, f64) {
+        let (lock, time) = self.place(failure);
+        (self.locks[lock], self.times[time])
+    }
+
+    /// The lock and the time of failure number `failure`.
+    pub(super) fn place(&self, failure: usize) -> (usize, usize) {
+        (failure / self.times.len(), failure % self.times.len())
+    }
+
+    pub(super) fn arm(&self) -> &'a AnyArm<N> {
+        self.arm
+    }
+
+    pub(super) fn scenario(&self) -> &'a Scenario {
+        self.scenario
+    }
+
+    pub(super) fn experiment(&self) -> &'a Experiment {
+        self.experiment
+    }
+
+    pub(super) fn motion(&self) -> &PlannedMotion<N> {
+        &self.motion
+    }
+
     /// How many failures there are.
     pub fn len(&self) -> usize {
         self.times.len() * self.locks.len()
@@ -129,7 +156,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         self.sampled(joints, time, field, self.sample_period())
     }
 
-    /// Every law, tuned and planned.
+    /// The laws that the scenario chooses, tuned and planned.
     ///
     /// A law that the rated torques leave no place for is left out; [`AssessedLaw::note`] of the others says how their searches ended.
     ///
@@ -143,6 +170,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
             tactic,
             note: String::new(),
         };
+        let chosen = self.scenario.assess().laws();
         let mut laws = vec![plain(Law::None, Tactic::Constant(Compensation::none()))];
         laws.extend(self.tuned()?);
         let moments = self.moments()?;
@@ -150,7 +178,9 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
             (Law::ConstantPerJoint, CoefficientLaw::PerJoint),
             (Law::ConstantProjected, CoefficientLaw::Projected),
         ] {
-            if let Ok(best) = best_constant(&moments, coefficients) {
+            if chosen.contains(law)
+                && let Ok(best) = best_constant(&moments, coefficients)
+            {
                 let tactic = Tactic::Constant(coefficients.with(best.coefficients));
                 laws.push(AssessedLaw {
                     note: format!("gap {:.1e} N m, {:.2} s", best.gap, best.seconds),
@@ -161,8 +191,11 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         let ramp = self.scenario.assess().ramp();
         laws.push(plain(Law::AfterOnly, Tactic::Planned(Plan::nothing(ramp))));
         laws.push(plain(Law::OnLine, Tactic::Planned(self.on_line())));
-        laws.extend(self.robust(&moments, &plain));
+        if chosen.contains(Law::Robust) {
+            laws.extend(self.robust(&moments, &plain));
+        }
         laws.push(plain(Law::Limit, Tactic::Known));
+        laws.retain(|law| chosen.contains(law.law));
         Ok(laws)
     }
 
@@ -175,8 +208,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         laws: &[AssessedLaw<N>],
         failure: usize,
     ) -> Result<Vec<Option<AssessedCase>>, ExperimentError> {
-        let joints = self.locks[failure / self.times.len()];
-        let time = self.times[failure % self.times.len()];
+        let (joints, time) = self.failure(failure);
         let operation = self.operation(joints, time, Field::DynamicManipulability)?;
         let cases = laws.iter().map(|law| {
             Ok(match &law.tactic {
@@ -189,7 +221,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
                     let assessment = operation.assess(compensation);
                     Some(AssessedCase::new(&operation, &assessment))
                 }
-                Tactic::Planned(plan) => Some(planned(&operation, plan)),
+                Tactic::Planned(plan) => Some(planned(&operation, plan, self.place(failure))),
                 Tactic::Known => optimal(&operation, ForcePriority::Exact)
                     .ok()
                     .map(|found| AssessedCase::new(&operation, &found.assessment)),
@@ -266,58 +298,89 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         Plan {
             period,
             samples: samples.collect(),
+            recourses: Vec::new(),
             force_budget: law.force_budget,
             ramp: self.scenario.assess().ramp(),
         }
     }
 
-    /// One law for each force budget.
+    /// One law for each force budget, side by side.
     fn robust(
         &self,
         moments: &[Moment<N>],
         plain: &dyn Fn(Law, Tactic<N>) -> AssessedLaw<N>,
     ) -> Vec<AssessedLaw<N>> {
         let settings = self.scenario.assess();
+        let options = self.robust_options(moments);
+        let options = settings.force_budgets().iter().map(|budget| RobustOptions {
+            force_budget: *budget,
+            ..options.clone()
+        });
+        let options: Vec<_> = options.collect();
+        let found: Vec<_> = std::thread::scope(|scope| {
+            let solve = |options| scope.spawn(move || robust(moments, options));
+            let threads: Vec<_> = options.iter().map(solve).collect();
+            threads
+                .into_iter()
+                .map(std::thread::ScopedJoinHandle::join)
+                .collect()
+        });
+        let found = options.iter().zip(found);
+        let laws = found.filter_map(|(options, found)| {
+            let found = found.ok()?.ok()?;
+            let note = format!(
+                "{}, {} variables, {} iterations, gap {:.1e} of {:.4}, {:.2} s",
+                found.status.words(),
+                found.variables,
+                found.iterations,
+                found.gap,
+                found.objective,
+                found.seconds
+            );
+            let rest = FreeTorque {
+                torque: SVector::zeros(),
+                wrench: Vector6::zeros(),
+            };
+            let samples = found.samples.iter().map(|sample| sample.before);
+            let plan = Plan {
+                period: self.spacing(),
+                samples: std::iter::once(rest).chain(samples).collect(),
+                recourses: found
+                    .samples
+                    .iter()
+                    .map(|sample| sample.after.clone())
+                    .collect(),
+                force_budget: options.force_budget,
+                ramp: settings.ramp(),
+            };
+            Some(AssessedLaw {
+                force_budget: Some(options.force_budget),
+                note,
+                ..plain(Law::Robust, Tactic::Planned(plan))
+            })
+        });
+        laws.collect()
+    }
+
+    /// All but the budget.
+    fn robust_options(&self, moments: &[Moment<N>]) -> RobustOptions<N> {
         let steps = moments.iter().flat_map(|moment| {
-            let step = |after: &crate::search::OperatingPoint<N>| {
+            let step = |after: &OperatingPoint<N>| {
                 let step = after.planned - moment.before.planned;
                 after.locked.without(&step).norm()
             };
             moment.after.iter().map(step)
         });
         let largest = steps.fold(0.0, f64::max);
-        let budgets = settings.force_budgets().iter().filter_map(|budget| {
-            let options = RobustOptions {
-                objective: RobustObjective::WorstRatio {
-                    floor: (Self::NO_STEP * largest).max(f64::MIN_POSITIVE),
-                },
-                force_budget: *budget,
-                rate: SVector::repeat(settings.rate_limit()),
-                rated_torque: self.rated_torque,
-                ..RobustOptions::default()
-            };
-            let found = robust(moments, &options).ok()?;
-            let first = found.samples.first()?.before;
-            // The motion begins with what the first failure time has.
-            let samples = std::iter::once(first)
-                .chain(found.samples.iter().map(|sample| sample.before))
-                .collect();
-            let plan = Plan {
-                period: self.spacing(),
-                samples,
-                force_budget: *budget,
-                ramp: settings.ramp(),
-            };
-            Some(AssessedLaw {
-                force_budget: Some(*budget),
-                note: format!(
-                    "{} variables, {} iterations, gap {:.1e} of {:.4}, {:.2} s",
-                    found.variables, found.iterations, found.gap, found.objective, found.seconds
-                ),
-                ..plain(Law::Robust, Tactic::Planned(plan))
-            })
-        });
-        budgets.collect()
+        RobustOptions {
+            objective: RobustObjective::WorstRatio {
+                floor: (Self::NO_STEP * largest).max(f64::MIN_POSITIVE),
+            },
+            rate: SVector::repeat(self.scenario.assess().rate_limit()),
+            start: Some(0.0),
+            rated_torque: self.rated_torque,
+            ..RobustOptions::default()
+        }
     }
 
     fn spacing(&self) -> f64 {
@@ -352,9 +415,12 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
 }
 
 /// A plan until the lock; then what brings the healthy torques nearest to what they were, fading out.
-fn planned<const N: usize>(operation: &Operation<N>, plan: &Plan<N>) -> AssessedCase {
-    let before = plan.before(operation.before());
-    let recourse = operation.recourse(&before, plan.force_budget);
+fn planned<const N: usize>(
+    operation: &Operation<N>,
+    plan: &Plan<N>,
+    place: (usize, usize),
+) -> AssessedCase {
+    let recourse = plan.recourse(operation, place);
     let assessment = operation.assess_torque(compensation::Law::Optimal, |point| {
         if point.locked.is_empty() {
             plan.before(point)

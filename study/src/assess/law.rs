@@ -2,52 +2,11 @@
 
 use nalgebra::{SVector, Vector6};
 
-use crate::search::OperatingPoint;
+use crate::search::{OperatingPoint, Operation};
 use ulna::control::compensation::{Compensation, FreeTorque};
 
 /// The laws that are assessed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Law {
-    /// No compensation.
-    None,
-    /// Eq. 16, its coefficients tuned for one lock.
-    PerJoint,
-    /// Eq. 20, likewise.
-    Projected,
-    /// Eq. 16 with the gradient of the kinematic manipulability in the place of ∇w_D (the paper's reference 11), likewise.
-    Kinematic,
-    /// Eq. 16 with the constant coefficients that are best at the worst of all failures.
-    ConstantPerJoint,
-    /// Eq. 20, likewise.
-    ConstantProjected,
-    /// Nothing before the lock; after it the torques of the healthy joints are brought nearest to what they were
-    /// (a static reading of the paper's reference 12).
-    AfterOnly,
-    /// [`OnLine`](ulna::control::compensation::OnLine) before the lock, the nearest torques after it: no plan, no tuning.
-    OnLine,
-    /// [`robust`](crate::search::robust): planned for all locks at all times.
-    Robust,
-    /// The least that any law leaves that keeps the static tool force and knows the joint and the time: no law, a bound.
-    Limit,
-}
-
-impl Law {
-    /// What it is called in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::PerJoint => "eq16",
-            Self::Projected => "eq20",
-            Self::Kinematic => "kinematic",
-            Self::ConstantPerJoint => "eq16_constant",
-            Self::ConstantProjected => "eq20_constant",
-            Self::AfterOnly => "after_only",
-            Self::OnLine => "on_line",
-            Self::Robust => "robust",
-            Self::Limit => "limit",
-        }
-    }
-}
+pub use crate::laws::LawName as Law;
 
 /// The lock that a law was tuned for.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,6 +52,9 @@ pub struct Plan<const N: usize> {
     pub period: f64,
     /// U₀ at each sample; between them what is linear between them, in the null space of the pose at hand. Empty for none.
     pub samples: Vec<FreeTorque<N>>,
+    /// What was planned to follow each lock at each time of the grid, by time and then by lock: it counts where rated torques are in
+    /// the way of the torque nearest to that before.
+    pub recourses: Vec<Vec<FreeTorque<N>>>,
     /// How far the recourse may bend the static tool force, N.
     pub force_budget: f64,
     /// How long the recourse takes to fade out, s.
@@ -105,6 +67,7 @@ impl<const N: usize> Plan<N> {
         Self {
             period: 1.0,
             samples: Vec::new(),
+            recourses: Vec::new(),
             force_budget: 0.0,
             ramp,
         }
@@ -132,6 +95,22 @@ impl<const N: usize> Plan<N> {
     /// U before the lock at an operating point, N·m (N).
     pub fn before(&self, point: &OperatingPoint<N>) -> SVector<f64, N> {
         torque(point, &self.at(point.time))
+    }
+
+    /// What follows the lock of an operation, number `lock` of the grid at its time number `time`: what leaves less of the step.
+    pub fn recourse(
+        &self,
+        operation: &Operation<N>,
+        (lock, time): (usize, usize),
+    ) -> FreeTorque<N> {
+        let before = self.before(operation.before());
+        let nearest = operation.recourse(&before, self.force_budget);
+        let planned = self.recourses.get(time).and_then(|locks| locks.get(lock));
+        let left = |after: &FreeTorque<N>| operation.left(&before, after);
+        match planned {
+            Some(planned) if left(planned) < left(&nearest) => *planned,
+            _ => nearest,
+        }
     }
 
     /// What is left of a recourse `since` s after the lock: from 1 to 0 along `1 − 3s² + 2s³`.

@@ -24,10 +24,12 @@
 
 mod case;
 mod grid;
+mod ground_truth;
 mod law;
 mod summary;
 
 pub use case::AssessedCase;
 pub use grid::FailureGrid;
+pub use ground_truth::{FeltLaw, GroundTruth};
 pub use law::{AssessedLaw, Law, Plan, Tactic, Tuning};
 pub use summary::{Assessment, LawAssessment, Statistics};

@@ -115,8 +115,7 @@ impl Statistics {
             .collect();
         ratios.sort_by(|a, b| a.0.total_cmp(&b.0));
         let count = ratios.len();
-        let middle = [count.saturating_sub(1) / 2, count / 2];
-        let ratio = |index: usize| ratios.get(index).map_or(1.0, |(ratio, _)| *ratio);
+        let sorted: Vec<f64> = ratios.iter().map(|(ratio, _)| *ratio).collect();
         let tail = ((Self::TAIL * count as f64).ceil() as usize).max(1);
         let worst = &ratios[count - tail.min(count)..];
         let larger = ratios
@@ -132,7 +131,7 @@ impl Statistics {
                 joints: case.joints.clone(),
                 time: case.time,
             }),
-            median_ratio: 0.5 * (ratio(middle[0]) + ratio(middle[1])),
+            median_ratio: median(&sorted),
             cvar: match worst {
                 [] => 1.0,
                 worst => worst.iter().map(|(ratio, _)| ratio).sum::<f64>() / worst.len() as f64,
@@ -149,4 +148,10 @@ impl Statistics {
             fastest_change: most(|case| case.fastest_change),
         }
     }
+}
+
+/// The median of ratios in ascending order; 1 if there is none.
+pub(super) fn median(sorted: &[f64]) -> f64 {
+    let at = |index: usize| sorted.get(index).copied().unwrap_or(1.0);
+    0.5 * (at(sorted.len().saturating_sub(1) / 2) + at(sorted.len() / 2))
 }

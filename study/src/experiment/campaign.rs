@@ -4,14 +4,12 @@ use std::fmt;
 
 use nalgebra::{SVector, Vector6};
 
+use super::trial::{CampaignOutcome, Trial};
 use super::{AnyArm, ExperimentError};
+use crate::laws::LawName;
 use crate::scenario::{Experiment, Scenario};
-use crate::search::{
-    Assessment, ForcePriority, Objective, Operation, OperationOptions, SearchError,
-    cancel_per_joint, least_impact, optimal,
-};
+use crate::search::{OperationOptions, SearchError};
 use ulna::Trajectory;
-use ulna::control::compensation::{Compensation, FreeTorque};
 use ulna::control::failure::{Failure, LockedJoints};
 use ulna::proof::random::SplitMix64;
 
@@ -31,12 +29,12 @@ pub struct CampaignCase {
     pub failed_joint: usize,
     /// When, s.
     pub failure_time: f64,
-    /// What came of it; `Err` if the random motion cannot be executed or the limits leave no compensation.
+    /// What came of it; `Err` if the random motion cannot be executed.
     pub outcome: Result<CampaignResult, ExperimentError>,
 }
 
 /// What the laws do in a case.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CampaignResult {
     /// The norm of the impact over the healthy joints without compensation, N·m (N).
     pub before: f64,
@@ -44,44 +42,17 @@ pub struct CampaignResult {
     pub locked_before: f64,
     /// The norm of the wrench that the tool is to exert, N (with the moments' N·m, if the task has any); constant in a case.
     pub asked_force: f64,
-    /// Eq. 16.
-    pub per_joint: CampaignOutcome,
-    /// Eq. 20.
-    pub projected: CampaignOutcome,
-    /// The least impact that keeps the tool force.
-    pub optimal: CampaignOutcome,
-    /// A compensation that only knows of the lock when it has fallen: [`after_only`].
-    pub after_only: CampaignOutcome,
+    /// What each of the scenario's laws did, in the order of [`LawName::ALL`]; `Err` where the limits leave it nothing.
+    /// No law's outcome depends on which others there are.
+    pub laws: Vec<(LawName, Result<CampaignOutcome, SearchError>)>,
 }
 
-/// What a law leaves, and what it costs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CampaignOutcome {
-    /// The norm of the impact over the healthy joints, N·m (N).
-    pub impact: f64,
-    /// h of Eq. 13 at the lock, N (with the moments' N·m, if the task has any).
-    pub force_error: f64,
-    /// The largest h over the whole motion.
-    pub max_force_error: f64,
-    /// How many healthy joints bear a larger step than without compensation; growth below 1e-9 of the largest step is rounding.
-    pub worse_joints: usize,
-}
-
-impl CampaignOutcome {
-    fn of<const N: usize>(operation: &Operation<N>, assessment: &Assessment<N>) -> Self {
-        /// Relative to the largest step.
-        const ROUNDING: f64 = 1e-9;
-        let step = operation.step();
-        let rounding = ROUNDING * step.amax();
-        let worse = operation
-            .healthy()
-            .filter(|joint| assessment.impact[*joint].abs() > step[*joint].abs() + rounding);
-        Self {
-            impact: assessment.healthy_impact,
-            force_error: assessment.force_error(),
-            max_force_error: assessment.max_force_error,
-            worse_joints: worse.count(),
-        }
+impl CampaignResult {
+    /// What `law` did; `None` if it was not chosen.
+    pub fn law(&self, law: LawName) -> Option<&Result<CampaignOutcome, SearchError>> {
+        let mut laws = self.laws.iter();
+        laws.find(|(name, _)| *name == law)
+            .map(|(_, outcome)| outcome)
     }
 }
 
@@ -159,47 +130,14 @@ impl<'a, const N: usize> Campaign<'a, N> {
             ..OperationOptions::default()
         };
         let failure = Failure { joints, time };
-        let operation = Operation::new(self.arm, &motion, |_| force, &failure, &options)?;
-        Ok(assess(&operation, failed_joint, &force)?)
+        let laws = campaign.laws();
+        let trial = Trial::new(self.arm, &motion, force, &failure, &options, laws)?;
+        let step = trial.step();
+        Ok(CampaignResult {
+            before: joints.without(&step).norm(),
+            locked_before: step[failed_joint].abs(),
+            asked_force: force.norm(),
+            laws: laws.iter().map(|law| (law, trial.meet(law))).collect(),
+        })
     }
-}
-
-/// The torque that takes as much of the step away after the lock as it can without a force at the tool, and none before it:
-/// `U' = −P' step`, P' the projector of the locked arm. Without limits it leaves `‖(I − P') step‖` over the healthy joints.
-///
-/// What a controller can do that does not prepare for a lock.
-pub fn after_only<const N: usize>(operation: &Operation<N>) -> Compensation<N> {
-    let nothing = FreeTorque {
-        torque: SVector::zeros(),
-        wrench: Vector6::zeros(),
-    };
-    Compensation::Optimal {
-        before: nothing,
-        after: FreeTorque {
-            torque: -operation.step(),
-            ..nothing
-        },
-    }
-}
-
-fn assess<const N: usize>(
-    operation: &Operation<N>,
-    failed_joint: usize,
-    asked: &Vector6<f64>,
-) -> Result<CampaignResult, SearchError> {
-    let step = operation.step();
-    let per_joint = cancel_per_joint(operation)?.assessment;
-    let projected = least_impact(operation, Objective::LeastSquares)?.assessment;
-    let optimal = optimal(operation, ForcePriority::Exact)?.assessment;
-    let after_only = operation.assess(&after_only(operation));
-    let outcome = |assessment: &Assessment<N>| CampaignOutcome::of(operation, assessment);
-    Ok(CampaignResult {
-        before: operation.failure().joints.without(&step).norm(),
-        locked_before: step[failed_joint].abs(),
-        asked_force: asked.norm(),
-        per_joint: outcome(&per_joint),
-        projected: outcome(&projected),
-        optimal: outcome(&optimal),
-        after_only: outcome(&after_only),
-    })
 }

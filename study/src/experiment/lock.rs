@@ -34,7 +34,7 @@ pub(super) const UNSEEN: Resolution = Resolution {
     ..FINE
 };
 /// Where six digits of steps and peaks are all that counts.
-pub(super) const COARSE: Resolution = Resolution {
+pub(crate) const COARSE: Resolution = Resolution {
     tolerance: 1e-8,
     ..UNSEEN
 };

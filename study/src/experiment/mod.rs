@@ -16,6 +16,7 @@ mod plan_steps;
 mod rollout;
 mod runner;
 mod sweep;
+mod trial;
 mod truth;
 mod verdict;
 
@@ -28,10 +29,11 @@ use ulna::Arm;
 
 pub use ablation::{Ablation, AblationOutcome, AblationRow, Variant};
 pub use bound::{BoundSide, CoefficientBound};
-pub use campaign::{Campaign, CampaignCase, CampaignOutcome, CampaignResult, after_only};
+pub use campaign::{Campaign, CampaignCase, CampaignResult};
 pub use case::{Case, Search, SearchMethod, Study, Tradeoff};
 pub use force_kept::{ForceKept, Lowerable};
 pub use limited::{LimitedJoint, LimitedSuppression};
+pub(crate) use lock::COARSE;
 pub use mechanics::{
     ArmPose, JointFrame, LockMechanics, Redundancy, StructureLoad, lock_mechanics,
 };
@@ -39,6 +41,7 @@ pub use plan_steps::{PlanSteps, PlannedTorques, ProfileSteps, TorqueStep};
 pub use rollout::{Rollout, Series};
 pub use runner::ExperimentRunner;
 pub use sweep::{Felt, Rotors, Sweep, SweepPoint};
+pub use trial::{CampaignOutcome, after_only};
 pub use truth::{BrakeImpulse, Truth, TruthRun};
 pub use verdict::{LockVerdict, Verdict};
 
@@ -106,7 +109,9 @@ pub(crate) fn rated_torque_of<const N: usize>(
     for_each_joint(rated)
 }
 
-fn for_each_joint<const N: usize>(numbers: &[f64]) -> Result<SVector<f64, N>, ExperimentError> {
+pub(crate) fn for_each_joint<const N: usize>(
+    numbers: &[f64],
+) -> Result<SVector<f64, N>, ExperimentError> {
     let numbers = <[f64; N]>::try_from(numbers).map_err(|_| ExperimentError::Joints {
         experiment: numbers.len(),
         arm: N,

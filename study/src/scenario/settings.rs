@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::format::bounds::MAX_CASES;
+use crate::laws::LawSet;
 use crate::simulation::BrakeProfile;
 
 /// Figure 2: where the search for k_di starts, and its step.
@@ -52,10 +53,11 @@ pub struct CampaignSettings {
     pub(super) start_spread: f64,
     pub(super) goal_spread: f64,
     pub(super) force_spread: f64,
+    pub(super) laws: LawSet,
 }
 
 impl CampaignSettings {
-    /// How many cases there may be: their rows are in memory together, 0.2 KB each.
+    /// How many cases there may be: their rows are in memory together, half a kilobyte each.
     pub const CASES: RangeInclusive<u64> = 1..=MAX_CASES;
 
     /// How many cases.
@@ -87,6 +89,11 @@ impl CampaignSettings {
     pub fn force_spread(&self) -> f64 {
         self.force_spread
     }
+
+    /// The laws that meet every case; at least one.
+    pub fn laws(&self) -> LawSet {
+        self.laws
+    }
 }
 
 /// How laws are judged over failures for which they were not tuned.
@@ -98,6 +105,7 @@ pub struct AssessSettings {
     pub(super) rate_limit: f64,
     pub(super) ramp: f64,
     pub(super) rated_torque: Option<Option<Vec<f64>>>,
+    pub(super) laws: LawSet,
 }
 
 impl AssessSettings {
@@ -132,6 +140,11 @@ impl AssessSettings {
     /// The rated torques to keep, N·m (N), `Some(None)` for no limit; `None` where those of the first experiment count.
     pub fn rated_torque(&self) -> Option<Option<&[f64]>> {
         self.rated_torque.as_ref().map(Option::as_deref)
+    }
+
+    /// The laws that are judged; that without a compensation and the limit among them.
+    pub fn laws(&self) -> LawSet {
+        self.laws
     }
 }
 

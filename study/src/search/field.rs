@@ -35,17 +35,27 @@ impl Field {
         projector: Projector,
     ) -> TaskPose<N> {
         let mut pose = TaskPose::new(arm, q, locked, projector);
-        let field = match self {
-            Self::DynamicManipulability => return pose,
+        if self != Self::DynamicManipulability {
+            pose.gradient = locked.without(&self.at(arm, q));
+        }
+        pose
+    }
+
+    /// The field at `q`, no joint locked.
+    pub(super) fn at<const N: usize>(
+        self,
+        arm: &(impl Arm<N> + ?Sized),
+        q: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        match self {
+            Self::DynamicManipulability => arm.jacobian_and_gradient(q).2,
             Self::KinematicManipulability => kinematic_manipulability_gradient(arm, q).1,
             Self::Ones => SVector::repeat(1.0),
             Self::Random(seed) => {
                 let mut random = SplitMix64::stream(seed, 0);
                 SVector::from_fn(|_, _| random.symmetric())
             }
-        };
-        pose.gradient = locked.without(&field);
-        pose
+        }
     }
 }
 

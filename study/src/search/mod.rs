@@ -94,6 +94,19 @@ pub enum SolveStatus {
     StepLimit,
 }
 
+impl SolveStatus {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::ClosedForm => "by formula",
+            Self::Solved => "solved",
+            Self::AlmostSolved => "almost solved",
+            Self::GridOptimum => "best of its neighbours on the grid",
+            Self::StepLimit => "stopped at the step limit",
+        }
+    }
+}
+
 /// What a search found, and what it is worth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution<const N: usize> {

@@ -126,13 +126,17 @@ impl<const N: usize> Operation<N> {
                 pose,
             })
         };
-        let healthy = times(0.0, failure.time, options.sample_period)
-            .map(|time| sample(time, LockedJoints::NONE));
-        let locked =
-            times(after, duration, options.sample_period).map(|time| sample(time, failure.joints));
-        let mut samples = healthy.collect::<Result<Vec<_>, _>>()?;
+        // Poses are large: each is moved once.
+        let healthy = times(0.0, failure.time, options.sample_period);
+        let locked = times(after, duration, options.sample_period);
+        let mut samples = Vec::with_capacity(healthy.len() + locked.len());
+        for time in healthy {
+            samples.push(sample(time, LockedJoints::NONE)?);
+        }
         let lock = samples.len();
-        samples.extend(locked.collect::<Result<Vec<_>, _>>()?);
+        for time in locked {
+            samples.push(sample(time, failure.joints)?);
+        }
         Ok(Self {
             failure: *failure,
             rated_torque: options.rated_torque.map(|rated| rated.max(0.0)),
@@ -147,6 +151,64 @@ impl<const N: usize> Operation<N> {
     pub fn with_rated_torque(mut self, rated_torque: SVector<f64, N>) -> Self {
         self.rated_torque = rated_torque.map(|rated| rated.max(0.0));
         self
+    }
+
+    /// The same operation with another field, of the arm and the motion that it was made of.
+    #[must_use]
+    pub fn with_field(
+        &self,
+        arm: &(impl Arm<N> + ?Sized),
+        trajectory: &impl Trajectory<N>,
+        field: Field,
+    ) -> Self {
+        let mut operation = self.clone();
+        for sample in &mut operation.samples {
+            sample.pose = self.pose_along(sample, arm, trajectory, field);
+        }
+        operation
+    }
+
+    /// What `compensation` does along another field: [`with_field`](Self::with_field) assessed, without keeping it.
+    pub fn assess_along(
+        &self,
+        arm: &(impl Arm<N> + ?Sized),
+        trajectory: &impl Trajectory<N>,
+        field: Field,
+        compensation: &Compensation<N>,
+    ) -> Assessment<N> {
+        self.assess_torque(compensation.law(), |sample| {
+            let pose = self.pose_along(sample, arm, trajectory, field);
+            pose.compensation(compensation)
+        })
+    }
+
+    fn pose_along(
+        &self,
+        sample: &OperatingPoint<N>,
+        arm: &(impl Arm<N> + ?Sized),
+        trajectory: &impl Trajectory<N>,
+        field: Field,
+    ) -> TaskPose<N> {
+        let state = if sample.locked.is_empty() {
+            trajectory.state(sample.time)
+        } else {
+            self.failure.state(trajectory, sample.time)
+        };
+        let mut pose = sample.pose;
+        pose.gradient = sample.locked.without(&field.at(arm, &state.q));
+        pose
+    }
+
+    /// The operation at the lock alone, [`before`](Self::before) and [`after`](Self::after): all that an impact depends on.
+    ///
+    /// What it says of the rest of the motion, as margins and largest force errors, is of the lock too.
+    #[must_use]
+    pub fn at_lock(&self) -> Self {
+        Self {
+            samples: vec![*self.before(), *self.after()],
+            lock: 1,
+            ..*self
+        }
     }
 
     /// The failure.
@@ -289,13 +351,13 @@ impl<const N: usize> Operation<N> {
 }
 
 /// From `start` to `end`, both included, at most `period` apart.
-fn times(start: f64, end: f64, period: f64) -> impl Iterator<Item = f64> {
-    let steps = ((end - start) / period).ceil() as u32;
-    (0..=steps).map(move |i| {
+fn times(start: f64, end: f64, period: f64) -> impl ExactSizeIterator<Item = f64> {
+    let steps = ((end - start) / period).ceil() as usize;
+    (0..steps + 1).map(move |i| {
         if i == steps {
             end
         } else {
-            start + (end - start) * f64::from(i) / f64::from(steps)
+            start + (end - start) * i as f64 / steps as f64
         }
     })
 }

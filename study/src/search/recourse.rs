@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, DVector, SVector, SymmetricEigen, Vector6};
 
 use super::{OperatingPoint, Operation};
+use ulna::Law;
 use ulna::TaskRow;
-use ulna::control::compensation::FreeTorque;
+use ulna::control::compensation::{FreeTorque, Limits};
 
 /// `min ‖wanted − P' z − J'ᵀ f‖` over the healthy joints with `‖f‖ ≤ budget`, N (with the moments' N·m, if the task has any):
 /// z is all of `wanted`, N·m (N), and f solves a trust-region problem (Nocedal and Wright, *Numerical Optimization*, 4.3).
@@ -74,6 +75,22 @@ fn within_radius(a: DMatrix<f64>, b: &DVector<f64>, radius: f64) -> DVector<f64>
 }
 
 impl<const N: usize> Operation<N> {
+    /// The norm of the healthy joints' steps that `after` leaves of a compensation that was `before` until the lock, N·m (N),
+    /// both cut at rated torques as a control cycle cuts them.
+    pub fn left(&self, before: &SVector<f64, N>, after: &FreeTorque<N>) -> f64 {
+        let torque = |point: &OperatingPoint<N>, wanted: &SVector<f64, N>| {
+            let limits = Limits {
+                rated_torque: *self.rated_torque(),
+                locked: point.locked,
+            };
+            limits.cut(&point.planned, wanted, Law::Optimal).0
+        };
+        let pose = &self.after().pose;
+        let wanted = pose.project(&after.torque) + pose.static_torque(&after.wrench);
+        let step = torque(self.after(), &wanted) - torque(self.before(), before);
+        self.failure().joints.without(&step).norm()
+    }
+
     /// The best that is left after the lock for a compensation that was `before` until then, N·m (N), with a force error
     /// of at most `budget`, N.
     pub fn recourse(&self, before: &SVector<f64, N>, budget: f64) -> FreeTorque<N> {

@@ -11,6 +11,7 @@ mod references;
 mod searches;
 mod structure;
 mod verdict;
+mod worse;
 
 use std::fmt::{self, Write};
 
@@ -92,6 +93,7 @@ fn section(
     searches::unfinished(page, &studies)?;
     let beside = (&findings.locks[..], &asked[..]);
     findings::suppression_against_force(page, scenario, experiment, &studies, beside)?;
+    worse::write(page, &studies)?;
     if experiment.section() == scenario.experiments()[0].section() {
         findings::price_of_suppression(page, &studies)?;
         searches::in_steps(page, scenario, &studies)?;

@@ -4,8 +4,9 @@ use super::bounds::{
     COMPENSATION_RATE, FORCE_BUDGET, MAX_ASSESSED_TIMES, MAX_BUDGETS, RAMP, RATED,
 };
 use super::experiment::RATED_TORQUES;
+use crate::laws::{LawName, LawSet};
 use crate::scenario::AssessSettings;
-use ulna_table::toml_reader::{Key, Kind, Limit, Need, Section};
+use ulna_table::toml_reader::{Choice, Key, Kind, Limit, Need, Section};
 
 /// What counts where a key is left out.
 pub(in crate::scenario) const FAILURE_TIMES_DEFAULT: u64 = 79;
@@ -14,11 +15,15 @@ pub(in crate::scenario) const FORCE_BUDGETS_DEFAULT: [f64; 4] = [0.0, 2.0, 5.0, 
 pub(in crate::scenario) const RATE_LIMIT_DEFAULT: f64 = 100.0;
 pub(in crate::scenario) const RAMP_DEFAULT: f64 = 1.0;
 
+/// What every other law is measured against: they are judged whether chosen or not.
+pub(in crate::scenario) const ALWAYS_ASSESSED: [LawName; 2] = [LawName::None, LawName::Limit];
+pub(in crate::scenario) const LAWS_DEFAULT: LawSet = LawSet::ALL;
+
 pub(super) static ASSESS: Section = Section {
     header: "[assess]",
     meaning: "At most once: every law over a grid of failures for which it was not tuned",
     example: "[assess]\nfailure_times = 79\nlocks_at_once = 2\nforce_budgets = [0.0, 2.0, 5.0, 10.0]\nrate_limit = 100.0\nramp = 1.0\n\
-              rated_torque = 600.0\n",
+              rated_torque = 600.0\nlaws = [\"eq16\", \"eq20\", \"on_line\", \"robust\"]\n",
     keys: &[
         &FAILURE_TIMES,
         &LOCKS_AT_ONCE,
@@ -26,6 +31,7 @@ pub(super) static ASSESS: Section = Section {
         &RATE_LIMIT,
         &RAMP_TIME,
         &ASSESSED_RATED_TORQUE,
+        &LAWS,
     ],
 };
 
@@ -80,3 +86,14 @@ pub(in crate::scenario) static ASSESSED_RATED_TORQUE: Key = Key::required(
 )
 .limits(&[Limit::Within(&RATED)])
 .need(Need::Optional("those of the first experiment count"));
+pub(in crate::scenario) static LAWS: Key = Key::required(
+    "laws",
+    Kind::List(&Kind::Words(LawName::listed), "at least one"),
+    "Which laws are judged; results keep to the order below, however they are written",
+    "`laws = [\"eq16\", \"on_line\"]`",
+)
+.limits(&[Limit::Said(|| {
+    let always = ALWAYS_ASSESSED.map(|law| format!("{:?}", law.name()));
+    format!("each once; {} are always there", always.join(" and "))
+})])
+.need(Need::Optional("all of them are"));

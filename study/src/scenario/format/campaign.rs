@@ -1,6 +1,7 @@
 //! `[campaign]`.
 
 use super::bounds::{FORCE_SPREAD as FORCE_SPREAD_BOUND, MAX_CASES, MAX_FAILURE_TIMES, SPREAD};
+use crate::laws::{LawName, LawSet};
 use crate::scenario::CampaignSettings;
 use ulna_table::toml_reader::{Key, Kind, Limit, Need, Section};
 
@@ -12,12 +13,37 @@ pub(in crate::scenario) const DEFAULTS: CampaignSettings = CampaignSettings {
     start_spread: 0.5,
     goal_spread: 0.5,
     force_spread: 20.0,
+    laws: LawSet::of(&[
+        LawName::PerJoint,
+        LawName::Projected,
+        LawName::Kinematic,
+        LawName::AfterOnly,
+        LawName::OnLine,
+        LawName::Limit,
+    ]),
 };
+
+/// Why a campaign cannot have `law`; `None` if it can.
+pub(in crate::scenario) fn refusal(law: LawName) -> Option<&'static str> {
+    match law {
+        LawName::None => Some("what no law leaves is always there, as `before`"),
+        LawName::ConstantPerJoint | LawName::ConstantProjected | LawName::Robust => {
+            Some("it is made for all failures of one motion, and each case has a motion of its own")
+        }
+        LawName::PerJoint
+        | LawName::Projected
+        | LawName::Kinematic
+        | LawName::AfterOnly
+        | LawName::OnLine
+        | LawName::Limit => None,
+    }
+}
 
 pub(super) static CAMPAIGN: Section = Section {
     header: "[campaign]",
     meaning: "At most once: all ranges are symmetric and uniform",
-    example: "[campaign]\ncases = 10_000\nseed = 1\nfailure_times = 20\nstart_spread = 0.5\ngoal_spread = 0.5\nforce_spread = 20.0\n",
+    example: "[campaign]\ncases = 10_000\nseed = 1\nfailure_times = 20\nstart_spread = 0.5\ngoal_spread = 0.5\nforce_spread = 20.0\n\
+              laws = [\"eq16\", \"eq20\", \"on_line\", \"limit\"]\n",
     keys: &[
         &CASES,
         &SEED,
@@ -25,6 +51,7 @@ pub(super) static CAMPAIGN: Section = Section {
         &START_SPREAD,
         &GOAL_SPREAD,
         &FORCE_SPREAD,
+        &LAWS,
     ],
 };
 
@@ -71,3 +98,20 @@ pub(in crate::scenario) static FORCE_SPREAD: Key = Key::required(
 )
 .limits(&[Limit::Within(&FORCE_SPREAD_BOUND)])
 .need(Need::Default(|| format!("{:?}", DEFAULTS.force_spread)));
+pub(in crate::scenario) static LAWS: Key = Key::required(
+    "laws",
+    Kind::List(&Kind::Words(laws_of_campaigns), "at least one"),
+    "Which laws meet every case, tuned for it where they are tuned; results keep to the order below, however they are written",
+    "`laws = [\"eq16\", \"on_line\"]`",
+)
+.limits(&[Limit::Said(|| "each once".to_owned())])
+.need(Need::Default(|| {
+    let laws: Vec<_> = DEFAULTS.laws.iter().map(LawName::name).collect();
+    format!("{laws:?}")
+}));
+
+fn laws_of_campaigns() -> Vec<(&'static str, &'static str)> {
+    let laws = LawName::ALL.into_iter();
+    let laws = laws.filter(|law| refusal(*law).is_none());
+    laws.map(|law| (law.name(), law.meaning())).collect()
+}

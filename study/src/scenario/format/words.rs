@@ -1,5 +1,6 @@
 //! The words of a scenario.
 
+use crate::laws::LawName;
 use crate::scenario::read::{
     Angles, FigureWord, MotionKind, ProfileWord, ProjectorWord, RatedWord,
 };
@@ -98,4 +99,23 @@ impl Choice for FigureWord {
             "the impact joint by joint, before and after, at every failure time",
         ),
     ];
+}
+
+impl Choice for LawName {
+    const WORDS: &'static [Word<Self>] = &law_words();
+}
+
+/// One for each law.
+const fn law_words() -> [Word<LawName>; LawName::ALL.len()] {
+    let mut words = [const { law_word(LawName::None) }; LawName::ALL.len()];
+    let mut i = 0;
+    while i < words.len() {
+        words[i] = law_word(LawName::ALL[i]);
+        i += 1;
+    }
+    words
+}
+
+const fn law_word(law: LawName) -> Word<LawName> {
+    Word::new(law.name(), law, law.meaning())
 }

@@ -5,6 +5,7 @@
 
 mod drives;
 mod experiment;
+mod laws;
 mod motion;
 
 use super::format::{self, assess, campaign};
@@ -19,6 +20,8 @@ pub(super) use experiment::{
     ExperimentTable, FigureTable, FigureWord, RatedTable, RatedWord, ReferenceTable,
 };
 use experiment::{read_experiments, read_rated_torque};
+pub(super) use laws::LawList;
+use laws::read_laws;
 use motion::read_motion;
 pub(super) use motion::{Angles, MotionKind, MotionTable, PathTable, ProfileWord};
 
@@ -78,6 +81,7 @@ pub(super) struct CampaignTable {
     pub(super) start_spread: Number,
     pub(super) goal_spread: Number,
     pub(super) force_spread: Number,
+    pub(super) laws: LawList,
 }
 
 /// `[assess]`; all keys are optional.
@@ -89,6 +93,7 @@ pub(super) struct AssessTable {
     pub(super) rate_limit: Number,
     pub(super) ramp: Number,
     pub(super) rated_torque: Option<RatedTable>,
+    pub(super) laws: LawList,
 }
 
 impl ScenarioTable {
@@ -169,6 +174,7 @@ fn read_campaign(fields: &mut Fields<'_>) -> CampaignTable {
         start_spread: number(fields.value(&campaign::START_SPREAD)),
         goal_spread: number(fields.value(&campaign::GOAL_SPREAD)),
         force_spread: number(fields.value(&campaign::FORCE_SPREAD)),
+        laws: fields.value(&campaign::LAWS).and_then(read_laws),
     }
 }
 
@@ -183,6 +189,7 @@ fn read_assess(fields: &mut Fields<'_>) -> AssessTable {
         rated_torque: fields
             .value(&assess::ASSESSED_RATED_TORQUE)
             .and_then(read_rated_torque),
+        laws: fields.value(&assess::LAWS).and_then(read_laws),
     }
 }
 

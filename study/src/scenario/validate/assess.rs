@@ -1,6 +1,7 @@
 //! `[assess]`.
 
 use super::Reader;
+use crate::laws::LawSet;
 use crate::scenario::AssessSettings;
 use crate::scenario::format::assess as format;
 use crate::scenario::format::bounds::{MAX_ASSESSED_TIMES, MAX_BUDGETS};
@@ -29,6 +30,9 @@ impl Reader<'_> {
             Some(rated) => self.rated_torque(rated).map(Some),
             None => Some(None),
         };
+        let laws = self.laws(&table.laws, format::LAWS_DEFAULT, |_| None);
+        let always = format::ALWAYS_ASSESSED.into_iter();
+        let laws = laws.map(|laws| always.fold(laws, LawSet::with));
         Some(AssessSettings {
             failure_times: failure_times?,
             locks_at_once: locks_at_once?,
@@ -36,6 +40,7 @@ impl Reader<'_> {
             rate_limit: rate_limit?,
             ramp: ramp?,
             rated_torque: rated_torque?,
+            laws: laws?,
         })
     }
 

@@ -29,6 +29,7 @@ impl Reader<'_> {
             DEFAULTS.force_spread,
             &format::FORCE_SPREAD,
         );
+        let laws = self.laws(&table.laws, DEFAULTS.laws, format::refusal);
         Some(CampaignSettings {
             cases: cases?,
             seed: table.seed.as_ref().map_or(DEFAULTS.seed, |seed| seed.value),
@@ -36,6 +37,7 @@ impl Reader<'_> {
             start_spread: start_spread?,
             goal_spread: goal_spread?,
             force_spread: force_spread?,
+            laws: laws?,
         })
     }
 }

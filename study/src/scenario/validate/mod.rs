@@ -5,6 +5,7 @@ mod campaign;
 mod drives;
 mod experiment;
 mod failure;
+mod laws;
 mod motion;
 
 use super::arm::ScenarioArm;
@@ -223,7 +224,7 @@ impl Reader<'_> {
         None
     }
 
-    fn not_empty(&self, list: &Located<Numbers>, example: &str) -> Option<()> {
+    fn not_empty<T>(&self, list: &Located<Vec<T>>, example: &str) -> Option<()> {
         if !list.value.is_empty() {
             return Some(());
         }

@@ -154,6 +154,8 @@ impl Program {
             tol_gap_abs: self.tolerance,
             tol_gap_rel: self.tolerance,
             tol_feas: self.tolerance,
+            tol_infeas_abs: 1e-12,
+            tol_infeas_rel: 1e-12,
             ..DefaultSettings::default()
         };
         let mut solver =
