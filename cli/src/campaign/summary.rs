@@ -141,7 +141,7 @@ impl<'s> Summary<'s> {
         let mut parts = vec![
             self.heading(),
             "median impact, norm over the healthy joints, N m".to_owned(),
-            self.lines(titles, impacts),
+            self.lines(&titles, impacts),
         ];
         let bending: Vec<_> = self.laws.iter().filter(|law| law.bends_force()).collect();
         if !bending.is_empty() {
@@ -161,7 +161,7 @@ impl<'s> Summary<'s> {
             parts.push(
                 "\nmedian force error at the lock and at worst, and what is asked, N".to_owned(),
             );
-            parts.push(self.lines(titles, forces));
+            parts.push(self.lines(&titles, forces));
         }
         parts.join("\n")
     }
@@ -169,11 +169,11 @@ impl<'s> Summary<'s> {
     /// A head, and a line for each joint and for all.
     fn lines(
         &self,
-        titles: Vec<String>,
+        titles: &[String],
         values: impl Fn(&JointSummary) -> Vec<Option<f64>>,
     ) -> String {
         let widths: Vec<_> = titles.iter().map(|title| title.len().max(10)).collect();
-        let line = |head: &str, cells: Vec<String>| {
+        let line = |head: &str, cells: &[String]| {
             let cells = cells.iter().zip(&widths);
             let cells = cells.map(|(cell, width)| format!(" {cell:>width$}"));
             format!("{head:>6}{}", cells.collect::<String>())
@@ -181,12 +181,10 @@ impl<'s> Summary<'s> {
         let text = |value: Option<f64>| value.map_or_else(String::new, significant);
         let rows = self.joints.iter().chain([&self.all]);
         let rows = rows.map(|joint| {
-            let cells = values(joint).into_iter().map(text).collect();
-            line(&joint.head(), cells)
+            let cells: Vec<_> = values(joint).into_iter().map(text).collect();
+            line(&joint.head(), &cells)
         });
-        let rows: Vec<_> = std::iter::once(line("joint", titles.clone()))
-            .chain(rows)
-            .collect();
+        let rows: Vec<_> = std::iter::once(line("joint", titles)).chain(rows).collect();
         rows.join("\n")
     }
 

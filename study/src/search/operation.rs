@@ -3,7 +3,7 @@
 use nalgebra::{SVector, Vector6};
 
 use super::convex::ROUNDING;
-use super::{OperationOptions, Scope, SearchError, WorseJoint, worse_joints};
+use super::{Field, OperationOptions, Scope, SearchError, WorseJoint, worse_joints};
 use ulna::Arm;
 use ulna::control::compensation::{Compensation, Law, Limits, TaskPose};
 use ulna::control::failure::{Failure, LockedJoints};
