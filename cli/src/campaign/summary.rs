@@ -133,7 +133,7 @@ impl<'s> Summary<'s> {
     /// Medians, a line for each joint: the impacts, and the force errors of the laws that bend the tool force.
     pub(super) fn console(&self) -> String {
         let names = self.laws.iter().map(|law| law.name().to_owned());
-        let titles = std::iter::once("before".to_owned()).chain(names).collect();
+        let titles: Vec<_> = std::iter::once("before".to_owned()).chain(names).collect();
         let impacts = |joint: &JointSummary| {
             let after = joint.laws.iter().map(|law| law.impact.median);
             std::iter::once(joint.before.median).chain(after).collect()
@@ -148,7 +148,7 @@ impl<'s> Summary<'s> {
             let titles = bending
                 .iter()
                 .flat_map(|law| [format!("{law} at lock"), "at worst".to_owned()]);
-            let titles = std::iter::once("asked".to_owned()).chain(titles).collect();
+            let titles: Vec<_> = std::iter::once("asked".to_owned()).chain(titles).collect();
             let forces = |joint: &JointSummary| {
                 let laws = joint.laws.iter();
                 let laws = laws.filter(|law| bending.iter().any(|name| name.name() == law.law));
