@@ -173,7 +173,7 @@ impl<'s> Summary<'s> {
         values: impl Fn(&JointSummary) -> Vec<Option<f64>>,
     ) -> String {
         let widths: Vec<_> = titles.iter().map(|title| title.len().max(10)).collect();
-        let line = |head: &str, cells: Vec<String>| {
+        let line = |head: &str, cells: &[String]| {
             let cells = cells.iter().zip(&widths);
             let cells = cells.map(|(cell, width)| format!(" {cell:>width$}"));
             format!("{head:>6}{}", cells.collect::<String>())
@@ -181,12 +181,10 @@ impl<'s> Summary<'s> {
         let text = |value: Option<f64>| value.map_or_else(String::new, significant);
         let rows = self.joints.iter().chain([&self.all]);
         let rows = rows.map(|joint| {
-            let cells = values(joint).into_iter().map(text).collect();
-            line(&joint.head(), cells)
+            let cells: Vec<_> = values(joint).into_iter().map(text).collect();
+            line(&joint.head(), &cells)
         });
-        let rows: Vec<_> = std::iter::once(line("joint", titles.to_vec()))
-            .chain(rows)
-            .collect();
+        let rows: Vec<_> = std::iter::once(line("joint", titles)).chain(rows).collect();
         rows.join("\n")
     }
 

@@ -15,6 +15,7 @@ mod convex;
 mod field;
 mod interval;
 mod operation;
+mod options;
 mod recourse;
 mod stepwise;
 mod worse;
@@ -29,7 +30,8 @@ pub use convex::{
 };
 pub use field::{Field, kinematic_manipulability_gradient};
 pub use interval::{Interval, feasible_interval};
-pub use operation::{Assessment, EFFORT, OperatingPoint, Operation, OperationOptions};
+pub use operation::{Assessment, OperatingPoint, Operation};
+pub use options::{EFFORT, OperationOptions};
 pub use recourse::nearest_torque;
 pub use stepwise::Stepwise;
 pub use worse::{WorseJoint, worse_joints};
