@@ -17,18 +17,7 @@ pub(crate) fn title(law: &LawAssessment) -> String {
 }
 
 pub(super) fn name(law: Law, force_budget: Option<f64>) -> String {
-    let title = match law {
-        Law::None => "none",
-        Law::PerJoint => "Eq. 16",
-        Law::Projected => "Eq. 20",
-        Law::Kinematic => "Eq. 16, kinematic",
-        Law::ConstantPerJoint => "Eq. 16, best constants",
-        Law::ConstantProjected => "Eq. 20, best constants",
-        Law::AfterOnly => "after the lock only",
-        Law::OnLine => "on line",
-        Law::Robust => "robust",
-        Law::Limit => "limit, force kept",
-    };
+    let title = law.title();
     match force_budget {
         Some(budget) => format!("{title}, {budget} N"),
         None => title.to_owned(),
