@@ -1,7 +1,7 @@
 //! What a simulated lock depends on besides the arm, as text: servo, rotors, brake.
 
 use ulna_study::Scenario;
-use ulna_study::experiment::{Rotors, Sweep, Truth};
+use ulna_study::experiment::{Rotors, SimulatedLock, Sweep};
 
 /// Servo, rotors and brake of a simulated lock.
 pub(crate) struct Setting {
@@ -23,13 +23,13 @@ pub(crate) fn besides_servo(scenario: &Scenario) -> String {
 }
 
 impl Setting {
-    pub(crate) fn of(truth: &Truth) -> Self {
+    pub(crate) fn of(simulated: &SimulatedLock) -> Self {
         Self {
-            gain: truth.gain,
-            rotors: Rotors::of(&truth.reflected_inertia),
-            brake_time: truth.brake_time,
-            detection: truth.detection,
-            lead: truth.lead,
+            gain: simulated.gain,
+            rotors: Rotors::of(&simulated.reflected_inertia),
+            brake_time: simulated.brake_time,
+            detection: simulated.detection,
+            lead: simulated.lead,
         }
     }
 

@@ -404,13 +404,13 @@ fn ground_truth(table: &mut Table, setting: &Setting) -> Result<(), Box<dyn Erro
         felt(0.0, 1e5, Some(SearchMethod::PerJoint)),
     ];
     table.rows("rotors of 1e5 kg·m², no feedback", [42.05, 40.5], geared);
-    let truths: Result<Vec<_>, _> = TIMES
+    let simulations: Result<Vec<_>, _> = TIMES
         .into_iter()
-        .map(|time| runner.truth(experiment, time))
+        .map(|time| runner.simulated_lock(experiment, time))
         .collect();
-    let truths = truths?;
+    let simulations = simulations?;
     let braking = |i: usize| {
-        let steps = truths[i].braking_step.iter().enumerate();
+        let steps = simulations[i].braking_step.iter().enumerate();
         let healthy = steps.filter(|(joint, _)| *joint != 1);
         healthy.map(|(_, step)| step * step).sum::<f64>().sqrt()
     };
@@ -432,12 +432,15 @@ fn ground_truth(table: &mut Table, setting: &Setting) -> Result<(), Box<dyn Erro
         ),
     ] {
         let ours = [0, 1, 2].map(|i| {
-            let run = truths[i].runs.iter().find(|run| run.method == Some(method));
+            let run = simulations[i]
+                .runs
+                .iter()
+                .find(|run| run.method == Some(method));
             run.map_or(f64::NAN, |run| run.tool_acceleration)
         });
         table.rows(what, theirs, ours);
     }
-    let peak = truths[1].runs[0]
+    let peak = simulations[1].runs[0]
         .peak_torque
         .iter()
         .copied()

@@ -60,8 +60,8 @@ fn nothing_that_keeps_the_force_is_below_the_limit() {
     let limit = of(&found, Law::Limit, None);
     for (law, budget) in [
         (Law::Projected, None),
-        (Law::AfterOnly, None),
-        (Law::OnLine, None),
+        (Law::AfterOnly, Some(0.0)),
+        (Law::OnLine, Some(0.0)),
         (Law::Robust, Some(0.0)),
     ] {
         let law = of(&found, law, budget);

@@ -448,7 +448,9 @@ fn an_experiment_of_another_arm_is_refused() {
     let runner = ExperimentRunner::new(&Ssrms, &paper_like).unwrap();
     let refusals = [
         runner.study(&planar.experiments()[0], 1.0).unwrap_err(),
-        runner.truth(&planar.experiments()[0], 1.0).unwrap_err(),
+        runner
+            .simulated_lock(&planar.experiments()[0], 1.0)
+            .unwrap_err(),
     ];
     for refusal in refusals {
         let expected = "the experiment is for 2 joints, the arm has 7";
@@ -481,9 +483,11 @@ fn another_arm_and_an_impossible_motion_are_refused() {
 fn the_simulated_lock_balances_and_tends_to_the_ideal_one() {
     let scenario = scenario(&[]);
     let runner = ExperimentRunner::new(&Ssrms, &scenario).unwrap();
-    let truth = runner.truth(&scenario.experiments()[0], 10.0).unwrap();
+    let simulated = runner
+        .simulated_lock(&scenario.experiments()[0], 10.0)
+        .unwrap();
     let mut last = f64::INFINITY;
-    for point in &truth.convergence {
+    for point in &simulated.convergence {
         assert!(
             point.energy_error < 1e-8 && point.momentum_error < 1e-8,
             "{point:?}"
@@ -492,10 +496,10 @@ fn the_simulated_lock_balances_and_tends_to_the_ideal_one() {
         last = point.relative_difference;
     }
     assert!(last < 1e-3, "{last}");
-    assert_eq!(truth.runs.len(), 4);
-    let without = &truth.runs[0];
+    assert_eq!(simulated.runs.len(), 4);
+    let without = &simulated.runs[0];
     assert_eq!(without.method, None);
-    for run in &truth.runs {
+    for run in &simulated.runs {
         assert!(run.energy_error < 1e-8);
         assert_eq!(run.time.len(), run.torque.len());
         assert_eq!(run.time.len(), run.predicted_torque.len());

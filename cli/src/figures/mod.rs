@@ -7,6 +7,7 @@ mod impact;
 mod law;
 mod ratio_map;
 mod search_flow;
+mod simulated;
 mod sketch;
 mod stroke;
 mod structure;
@@ -14,7 +15,6 @@ mod style;
 mod sweep;
 mod torque;
 mod tradeoff;
-mod truth;
 mod view;
 
 use std::sync::Once;
@@ -31,12 +31,12 @@ pub(crate) use heat_map::HeatMap;
 pub(crate) use impact::Impacts;
 pub(crate) use ratio_map::RatioMaps;
 pub(crate) use search_flow::SearchFlow;
+pub(crate) use simulated::{Convergence, SimulatedTorques};
 pub(crate) use structure::Structure;
 use style::{Pen, anchored};
 pub(crate) use sweep::FeltSteps;
 pub(crate) use torque::Torques;
 pub(crate) use tradeoff::Tradeoffs;
-pub(crate) use truth::{Convergence, SimulatedTorques};
 
 /// Where a figure is drawn.
 type Area<DB> = DrawingArea<DB, Shift>;

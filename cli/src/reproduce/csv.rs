@@ -1,7 +1,7 @@
 //! The CSV files of `ulna reproduce`.
 
 use serde::Serialize;
-use ulna_study::experiment::{Case, Study, Truth};
+use ulna_study::experiment::{Case, SimulatedLock, Study};
 
 use super::force::Asked;
 use super::words::{name, solve_status, status};
@@ -136,25 +136,25 @@ struct SimulatedStep<'s> {
     energy_error: f64,
 }
 
-pub(super) fn truth(truths: &[Truth]) -> anyhow::Result<String> {
-    let runs = truths
+pub(super) fn simulations(simulations: &[SimulatedLock]) -> anyhow::Result<String> {
+    let runs = simulations
         .iter()
-        .flat_map(|truth| truth.runs.iter().map(move |run| (truth, run)));
-    file(runs.flat_map(|(truth, run)| {
+        .flat_map(|simulated| simulated.runs.iter().map(move |run| (simulated, run)));
+    file(runs.flat_map(|(simulated, run)| {
         let steps = run.torque_step.iter().enumerate();
         steps.map(move |(joint, torque_step)| SimulatedStep {
-            section: &truth.section,
-            failure_time: truth.failure_time,
-            brake_time: truth.brake_time,
-            detection: truth.detection,
-            lead: truth.lead,
-            gain: truth.gain,
+            section: &simulated.section,
+            failure_time: simulated.failure_time,
+            brake_time: simulated.brake_time,
+            detection: simulated.detection,
+            lead: simulated.lead,
+            gain: simulated.gain,
             tool_acceleration: run.tool_acceleration,
-            reflected_inertia: truth.reflected_inertia[joint],
-            braking_step: truth.braking_step[joint],
+            reflected_inertia: simulated.reflected_inertia[joint],
+            braking_step: simulated.braking_step[joint],
             method: run.method.map_or("none", name),
             joint: joint + 1,
-            locks: truth.failed_joints.contains(&joint),
+            locks: simulated.failed_joints.contains(&joint),
             predicted_step: run.predicted_step[joint],
             torque_step: *torque_step,
             peak_torque: run.peak_torque[joint],
@@ -178,15 +178,18 @@ struct Convergence<'s> {
     momentum_error: f64,
 }
 
-pub(super) fn convergence(truths: &[Truth]) -> anyhow::Result<String> {
-    let points = truths
-        .iter()
-        .flat_map(|truth| truth.convergence.iter().map(move |point| (truth, point)));
-    file(points.flat_map(|(truth, point)| {
-        let joints = truth.failed_joints.iter().enumerate();
+pub(super) fn convergence(simulations: &[SimulatedLock]) -> anyhow::Result<String> {
+    let points = simulations.iter().flat_map(|simulated| {
+        simulated
+            .convergence
+            .iter()
+            .map(move |point| (simulated, point))
+    });
+    file(points.flat_map(|(simulated, point)| {
+        let joints = simulated.failed_joints.iter().enumerate();
         joints.map(move |(i, joint)| Convergence {
-            section: &truth.section,
-            failure_time: truth.failure_time,
+            section: &simulated.section,
+            failure_time: simulated.failure_time,
             joint: joint + 1,
             brake_time: point.brake_time,
             impulse: point.impulse[i],

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use ulna::JointKind;
 use ulna_study::Scenario;
-use ulna_study::experiment::{LockMechanics, Study, Truth};
+use ulna_study::experiment::{LockMechanics, SimulatedLock, Study};
 use ulna_study::scenario::{Experiment, FigureKind};
 use ulna_study::search::Stepwise;
 
@@ -34,12 +34,13 @@ pub(super) fn add(
         let studies = findings.of_section(experiment);
         draw(scenario, experiment, &studies, &kinds)
     });
-    let of_truth = rayon::iter::once(&findings.truths).map(|truths| match truths {
-        Ok(truths) => draw_truth(scenario, truths, &kinds),
-        Err(_) => Ok(Vec::new()),
-    });
+    let of_simulation =
+        rayon::iter::once(&findings.simulations).map(|simulations| match simulations {
+            Ok(simulations) => draw_simulation(scenario, simulations, &kinds),
+            Err(_) => Ok(Vec::new()),
+        });
     let of_arm = rayon::iter::once(()).map(|()| draw_arm(scenario, findings));
-    let drawn = of_experiments.chain(of_truth).chain(of_arm);
+    let drawn = of_experiments.chain(of_simulation).chain(of_arm);
     for (name, svg, png) in drawn.collect::<anyhow::Result<Vec<_>>>()?.concat() {
         files.add(format!("figures/{name}.svg"), svg);
         files.add(format!("figures/{name}.png"), png);
@@ -134,31 +135,35 @@ pub(super) const SIMULATED: &str = "simulated-lock";
 pub(super) const CONVERGENCE: &str = "ever-shorter-brakes";
 
 /// The lock at the middle one of the failure times, and the limit of ever shorter brakes.
-fn draw_truth(
+fn draw_simulation(
     scenario: &Scenario,
-    truths: &[Truth],
+    simulations: &[SimulatedLock],
     kinds: &[JointKind],
 ) -> anyhow::Result<Vec<Drawing>> {
-    let Some(truth) = truths.get(truths.len() / 2) else {
+    let Some(simulated) = simulations.get(simulations.len() / 2) else {
         return Ok(Vec::new());
     };
-    let joints = strongest(truth);
+    let joints = strongest(simulated);
     let lock = SimulatedTorques {
-        truth,
+        simulated,
         joints: &joints,
         kinds,
     };
-    let footer = footer(scenario, Some(&truth.section));
+    let footer = footer(scenario, Some(&simulated.section));
     Ok(vec![
         both(SIMULATED.to_owned(), &lock, &footer)?,
-        both(CONVERGENCE.to_owned(), &Convergence { truths }, &footer)?,
+        both(
+            CONVERGENCE.to_owned(),
+            &Convergence { simulations },
+            &footer,
+        )?,
     ])
 }
 
 /// The joints that lock, and of the others those with the largest predicted steps: four in all, if there are as many.
-fn strongest(truth: &Truth) -> Vec<usize> {
-    let mut joints = truth.failed_joints.clone();
-    if let Some(run) = truth.runs.first() {
+fn strongest(simulated: &SimulatedLock) -> Vec<usize> {
+    let mut joints = simulated.failed_joints.clone();
+    if let Some(run) = simulated.runs.first() {
         let step = |joint: &usize| run.predicted_step[*joint].abs();
         let mut others: Vec<_> = (0..run.predicted_step.len()).collect();
         others.retain(|joint| !joints.contains(joint));

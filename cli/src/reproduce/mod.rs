@@ -27,7 +27,7 @@ use ulna::SerialChain;
 use ulna_study::Scenario;
 use ulna_study::experiment::{
     Ablation, AnyArm, ExperimentError, ExperimentRunner, LimitedSuppression, LockMechanics,
-    PlanSteps, Study, Sweep, Truth, lock_mechanics,
+    PlanSteps, SimulatedLock, Study, Sweep, lock_mechanics,
 };
 use ulna_study::scenario::{Experiment, ScenarioErrors};
 
@@ -106,7 +106,7 @@ struct Findings {
     /// Every experiment at every failure time.
     studies: Vec<Study>,
     /// The first experiment simulated, at every failure time; `Err` if that cannot be.
-    truths: Result<Vec<Truth>, ExperimentError>,
+    simulations: Result<Vec<SimulatedLock>, ExperimentError>,
     /// The steps of the plan under the force of the first experiment, whatever locks.
     plan_steps: PlanSteps,
     /// What rated torques cost, for every experiment that has them, at every failure time at which they can be kept.
@@ -160,13 +160,13 @@ impl ForArm for Work<'_> {
     fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
         let runner = ExperimentRunner::new(arm, self.scenario)?;
         let study = |experiment: &Experiment, time| runner.study(experiment, time);
-        let truth = |experiment: &Experiment, time| runner.truth(experiment, time);
+        let simulated = |experiment: &Experiment, time| runner.simulated_lock(experiment, time);
         let limited = |experiment: &Experiment, time| runner.limited(experiment, time);
         let ablation = |experiment: &Experiment, time| runner.ablation(experiment, time);
         let sweep = |experiment: &Experiment, time| runner.sweep(experiment, time);
         let attempts = Attempts {
             study: &study,
-            truth: &truth,
+            simulated: &simulated,
             limited: &limited,
             ablation: &ablation,
             sweep: &sweep,
@@ -182,7 +182,7 @@ type Attempt<'l, T> = dyn Fn(&Experiment, f64) -> Result<T, ExperimentError> + S
 /// Everything that is asked of a runner.
 struct Attempts<'l> {
     study: &'l Attempt<'l, Study>,
-    truth: &'l Attempt<'l, Truth>,
+    simulated: &'l Attempt<'l, SimulatedLock>,
     limited: &'l Attempt<'l, Option<LimitedSuppression>>,
     ablation: &'l Attempt<'l, Ablation>,
     sweep: &'l Attempt<'l, Sweep>,
@@ -211,13 +211,13 @@ fn explore(
         .map(|(experiment, time)| (ask.study)(experiment, time));
     let first = &experiments[0];
     let times = failure_times.par_iter();
-    let truths = times.clone().map(|time| (ask.truth)(first, *time));
+    let simulations = times.clone().map(|time| (ask.simulated)(first, *time));
     let ablations = times.clone().map(|time| (ask.ablation)(first, *time));
     let sweeps = times.map(|time| (ask.sweep)(first, *time));
     Ok(Findings {
         ablations: ablations.collect::<Result<_, _>>()?,
         studies: studies.collect::<Result<_, _>>()?,
-        truths: truths.collect(),
+        simulations: simulations.collect(),
         sweeps: sweeps.collect(),
         plan_steps,
         limited,

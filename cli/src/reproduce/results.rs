@@ -92,9 +92,9 @@ pub(super) fn add(
     files.add("limits.csv", limited::csv(&findings.limited)?);
     files.add("plan_steps.csv", plan_steps::csv(&findings.plan_steps)?);
     files.add("structure.csv", structure::csv(&findings.locks)?);
-    if let Ok(truths) = &findings.truths {
-        files.add("simulation.csv", csv::truth(truths)?);
-        files.add("convergence.csv", csv::convergence(truths)?);
+    if let Ok(simulations) = &findings.simulations {
+        files.add("simulation.csv", csv::simulations(simulations)?);
+        files.add("convergence.csv", csv::convergence(simulations)?);
     }
     for (case, _) in exact {
         let Case {

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use comfy_table::Table;
-use ulna_study::experiment::{Case, SearchMethod, Study, Truth};
+use ulna_study::experiment::{Case, SearchMethod, SimulatedLock, Study};
 use ulna_study::scenario::{Reference, Scenario};
 
 use super::coefficients::coefficients;
@@ -83,13 +83,13 @@ pub(super) fn write(
         )?;
         writeln!(out, "{}", structure::table(lock))?;
     }
-    if let Ok(truths) = &findings.truths {
+    if let Ok(simulations) = &findings.simulations {
         writeln!(
             out,
             "\nthe lock as it is, with ever shorter brakes{}: impulse in N m s",
-            verdict::drives(truths)
+            verdict::drives(simulations)
         )?;
-        writeln!(out, "{}", convergence(truths))?;
+        writeln!(out, "{}", convergence(simulations))?;
     }
     Ok(())
 }
@@ -229,7 +229,7 @@ fn searches(studies: &[&Study]) -> String {
 }
 
 /// A row for each brake time.
-fn convergence(truths: &[Truth]) -> String {
+fn convergence(simulations: &[SimulatedLock]) -> String {
     let mut table = Table::new();
     table.set_header([
         "at",
@@ -240,11 +240,11 @@ fn convergence(truths: &[Truth]) -> String {
         "rel. difference",
         "peak torque, N m",
     ]);
-    for truth in truths {
-        for point in &truth.convergence {
-            for (i, joint) in truth.failed_joints.iter().enumerate() {
+    for simulated in simulations {
+        for point in &simulated.convergence {
+            for (i, joint) in simulated.failed_joints.iter().enumerate() {
                 table.add_row([
-                    format!("{} s", truth.failure_time),
+                    format!("{} s", simulated.failure_time),
                     (joint + 1).to_string(),
                     seconds(point.brake_time),
                     format!("{:.6}", point.impulse[i]),

@@ -2,7 +2,7 @@
 
 use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
-use ulna_study::experiment::{LockVerdict, SearchMethod, Sweep, Truth, Verdict};
+use ulna_study::experiment::{LockVerdict, SearchMethod, SimulatedLock, Sweep, Verdict};
 
 use ulna_study::Scenario;
 
@@ -110,8 +110,8 @@ pub(super) fn heading(sweeps: &[Sweep]) -> String {
 }
 
 /// What the simulated locks are driven by, in brackets; empty without any.
-pub(super) fn drives(truths: &[Truth]) -> String {
-    let setting = truths.first().map(Setting::of);
+pub(super) fn drives(simulations: &[SimulatedLock]) -> String {
+    let setting = simulations.first().map(Setting::of);
     setting.map_or_else(String::new, |setting| {
         ascii(&format!(" ({})", setting.drives()))
     })

@@ -41,6 +41,8 @@ impl<const N: usize> fmt::Debug for FailureGrid<'_, N> {
 impl<'a, const N: usize> FailureGrid<'a, N> {
     /// The largest time between two samples of a motion, s, where the grid is coarser.
     const SAMPLE_PERIOD: f64 = 0.125;
+    /// What the mean ratio counts beside the worst for [`Law::Robust`]: a hundredth leaves the worst what it is, to three digits.
+    const MEAN: f64 = 0.01;
     /// Steps below this part of the largest of the grid need not become less for [`Law::Robust`].
     const NO_STEP: f64 = 1e-6;
 
@@ -188,9 +190,23 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
                 });
             }
         }
-        let ramp = self.scenario.assess().ramp();
-        laws.push(plain(Law::AfterOnly, Tactic::Planned(Plan::nothing(ramp))));
-        laws.push(plain(Law::OnLine, Tactic::Planned(self.on_line())));
+        for (law, plan) in [
+            (Law::AfterOnly, Plan::nothing(self.scenario.assess().ramp())),
+            (Law::OnLine, self.on_line()),
+        ] {
+            // The budget is the recourse's.
+            let budgets = self.scenario.assess().force_budgets().iter();
+            laws.extend(budgets.map(|budget| AssessedLaw {
+                force_budget: Some(*budget),
+                ..plain(
+                    law,
+                    Tactic::Planned(Plan {
+                        force_budget: *budget,
+                        ..plan.clone()
+                    }),
+                )
+            }));
+        }
         if chosen.contains(Law::Robust) {
             laws.extend(self.robust(&moments, &plain));
         }
@@ -379,6 +395,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
             rate: SVector::repeat(self.scenario.assess().rate_limit()),
             start: Some(0.0),
             rated_torque: self.rated_torque,
+            mean: Self::MEAN,
             ..RobustOptions::default()
         }
     }

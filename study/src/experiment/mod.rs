@@ -15,9 +15,9 @@ mod mechanics;
 mod plan_steps;
 mod rollout;
 mod runner;
+mod simulated;
 mod sweep;
 mod trial;
-mod truth;
 mod verdict;
 
 use nalgebra::SVector;
@@ -40,9 +40,9 @@ pub use mechanics::{
 pub use plan_steps::{PlanSteps, PlannedTorques, ProfileSteps, TorqueStep};
 pub use rollout::{Rollout, Series};
 pub use runner::ExperimentRunner;
+pub use simulated::{BrakeImpulse, SimulatedLock, SimulatedRun};
 pub use sweep::{Felt, Rotors, Sweep, SweepPoint};
 pub use trial::{CampaignOutcome, after_only};
-pub use truth::{BrakeImpulse, Truth, TruthRun};
 pub use verdict::{LockVerdict, Verdict};
 
 /// Why a scenario cannot be tried out.

@@ -122,7 +122,7 @@ impl AssessSettings {
         self.locks_at_once
     }
 
-    /// How far the robust law may bend the static tool force, N (with the moments' N·m, if the task has any); ascending, at least one.
+    /// How far the robust law may bend the static tool force, and the recourse of the others, N (with the moments' N·m, if the task has any); ascending, at least one.
     pub fn force_budgets(&self) -> &[f64] {
         &self.force_budgets
     }

@@ -1,4 +1,4 @@
-//! The truth model: what an arm really does while a joint is braked and locked.
+//! The ground truth: what an arm really does while a joint is braked and locked.
 //!
 //! The impact torque of Eq. 1–12 assumes that the healthy joints keep their planned motion through the lock.
 //! Here nothing is assumed: the arm obeys

@@ -2,61 +2,64 @@
 
 use std::fmt::{self, Write};
 
-use ulna_study::experiment::Truth;
+use ulna_study::experiment::SimulatedLock;
 
 use crate::reproduce::verdict::{METHODS, law};
 use crate::reproduce::words::significant;
 
 /// The paragraphs.
-pub(super) fn write(page: &mut String, truths: &[Truth]) -> fmt::Result {
-    while_braking(page, truths)?;
-    moved_tool(page, truths)?;
-    unfinished(page, truths)
+pub(super) fn write(page: &mut String, simulations: &[SimulatedLock]) -> fmt::Result {
+    while_braking(page, simulations)?;
+    moved_tool(page, simulations)?;
+    unfinished(page, simulations)
 }
 
 /// What Eq. 1-12 leave out while the brake acts.
-fn while_braking(page: &mut String, truths: &[Truth]) -> fmt::Result {
-    let locks = truths.iter().filter_map(|truth| {
+fn while_braking(page: &mut String, simulations: &[SimulatedLock]) -> fmt::Result {
+    let locks = simulations.iter().filter_map(|simulated| {
         let norm = |torque: &[f64]| {
             let joints = torque.iter().enumerate();
-            let healthy = joints.filter(|(joint, _)| !truth.failed_joints.contains(joint));
+            let healthy = joints.filter(|(joint, _)| !simulated.failed_joints.contains(joint));
             healthy
                 .map(|(_, torque)| torque * torque)
                 .sum::<f64>()
                 .sqrt()
         };
-        let without = truth.runs.iter().find(|run| run.method.is_none())?;
+        let without = simulated.runs.iter().find(|run| run.method.is_none())?;
         Some(format!(
             "{} beside {} N·m at {} s",
-            significant(norm(&truth.braking_step)),
+            significant(norm(&simulated.braking_step)),
             significant(norm(&without.predicted_step)),
-            truth.failure_time
+            simulated.failure_time
         ))
     });
     let locks: Vec<_> = locks.collect();
-    let Some(truth) = truths.first().filter(|_| !locks.is_empty()) else {
+    let Some(simulated) = simulations.first().filter(|_| !locks.is_empty()) else {
         return Ok(());
     };
     writeln!(
         page,
         "**While the brake acts.** Eq. 1-12 stop the joint's acceleration, -q̈_k, and not its rate. A brake of {} s takes -q̇_k/T besides, on the mean. \
          If the healthy joints kept their rates, that alone would change their torques by (norm, beside the step predicted without compensation): {}.\n",
-        truth.brake_time,
+        simulated.brake_time,
         locks.join("; "),
     )
 }
 
 /// What a compensation does to the tool.
-fn moved_tool(page: &mut String, truths: &[Truth]) -> fmt::Result {
+fn moved_tool(page: &mut String, simulations: &[SimulatedLock]) -> fmt::Result {
     let rows = METHODS.iter().filter_map(|(method, title)| {
-        let accelerations: Vec<_> = truths
+        let accelerations: Vec<_> = simulations
             .iter()
-            .filter_map(|truth| {
-                let run = truth.runs.iter().find(|run| run.method == Some(*method))?;
+            .filter_map(|simulated| {
+                let run = simulated
+                    .runs
+                    .iter()
+                    .find(|run| run.method == Some(*method))?;
                 Some(format!(
                     "{} at {} s",
                     significant(run.tool_acceleration),
-                    truth.failure_time
+                    simulated.failure_time
                 ))
             })
             .collect();
@@ -75,13 +78,13 @@ fn moved_tool(page: &mut String, truths: &[Truth]) -> fmt::Result {
 }
 
 /// The simulations that did not come to their end.
-fn unfinished(page: &mut String, truths: &[Truth]) -> fmt::Result {
-    for truth in truths {
-        for (method, ending) in &truth.unfinished {
+fn unfinished(page: &mut String, simulations: &[SimulatedLock]) -> fmt::Result {
+    for simulated in simulations {
+        for (method, ending) in &simulated.unfinished {
             writeln!(
                 page,
                 "The lock at {} s could not be simulated with {}: {ending}.\n",
-                truth.failure_time,
+                simulated.failure_time,
                 law(*method)
             )?;
         }

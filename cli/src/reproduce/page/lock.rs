@@ -3,7 +3,7 @@
 use std::fmt::{self, Write};
 
 use ulna_study::Scenario;
-use ulna_study::experiment::{SearchMethod, Truth, TruthRun};
+use ulna_study::experiment::{SearchMethod, SimulatedLock, SimulatedRun};
 
 use crate::reproduce::Findings;
 use crate::reproduce::drawings::{CONVERGENCE, SIMULATED};
@@ -12,14 +12,14 @@ use crate::setting::Setting;
 
 /// The norms of a run's step over the healthy joints, one for each failure time.
 fn steps(
-    truths: &[Truth],
+    simulations: &[SimulatedLock],
     method: Option<SearchMethod>,
-    step: fn(&TruthRun) -> &Vec<f64>,
+    step: fn(&SimulatedRun) -> &Vec<f64>,
 ) -> String {
-    let norms = truths.iter().filter_map(|truth| {
-        let run = truth.runs.iter().find(|run| run.method == method)?;
+    let norms = simulations.iter().filter_map(|simulated| {
+        let run = simulated.runs.iter().find(|run| run.method == method)?;
         let joints = step(run).iter().enumerate();
-        let healthy = joints.filter(|(joint, _)| !truth.failed_joints.contains(joint));
+        let healthy = joints.filter(|(joint, _)| !simulated.failed_joints.contains(joint));
         Some(significant(healthy.map(|(_, x)| x * x).sum::<f64>().sqrt()))
     });
     norms.collect::<Vec<_>>().join(", ")
@@ -28,21 +28,21 @@ fn steps(
 /// The simulated locks.
 pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings) -> fmt::Result {
     writeln!(page, "## The lock as it is\n")?;
-    let truths = match &findings.truths {
-        Ok(truths) => truths,
+    let simulations = match &findings.simulations {
+        Ok(simulations) => simulations,
         Err(error) => return writeln!(page, "It could not be simulated: {error}.\n"),
     };
     let eq_16 = Some(SearchMethod::PerJoint);
-    let has_run = |truth: &Truth| truth.runs.iter().any(|run| run.method == eq_16);
-    let under_eq_16 = if truths.iter().all(has_run) {
-        let steps = steps(truths, eq_16, |run| &run.torque_step);
+    let has_run = |simulated: &SimulatedLock| simulated.runs.iter().any(|run| run.method == eq_16);
+    let under_eq_16 = if simulations.iter().all(has_run) {
+        let steps = steps(simulations, eq_16, |run| &run.torque_step);
         format!(" and of {steps} N·m under Eq. 16")
     } else {
         String::new()
     };
-    let energy = truths
+    let energy = simulations
         .iter()
-        .flat_map(|truth| &truth.runs)
+        .flat_map(|simulated| &simulated.runs)
         .map(|run| run.energy_error);
     writeln!(
         page,
@@ -52,17 +52,17 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
          The step of the healthy joints' torques (norm) that is predicted without compensation is {} N·m at {} s; what they bear after the brake is a step of {} N·m without \
          compensation{}. A compensation also moves an arm whose tool nothing holds, and feedback, where there is some, works against it.\n",
         joints_named(scenario.failed_joints()),
-        truths
+        simulations
             .first()
-            .map_or_else(String::new, |truth| Setting::of(truth).in_words()),
+            .map_or_else(String::new, |simulated| Setting::of(simulated).in_words()),
         energy.fold(0.0, f64::max),
-        steps(truths, None, |run| &run.predicted_step),
-        truths
+        steps(simulations, None, |run| &run.predicted_step),
+        simulations
             .iter()
-            .map(|truth| truth.failure_time.to_string())
+            .map(|simulated| simulated.failure_time.to_string())
             .collect::<Vec<_>>()
             .join(", "),
-        steps(truths, None, |run| &run.torque_step),
+        steps(simulations, None, |run| &run.torque_step),
         under_eq_16,
     )?;
     writeln!(
@@ -70,12 +70,12 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
         "| lock, s | law | healthy joints: predicted step (norm), N·m | step after the brake (norm), N·m | largest torque of a healthy joint, N·m | of a locked one, N·m |\n\
          |---|---|---|---|---|---|"
     )?;
-    for truth in truths {
-        for run in &truth.runs {
+    for simulated in simulations {
+        for run in &simulated.runs {
             let of = |torque: &[f64], locked: bool| {
                 let joints = torque.iter().copied().enumerate();
                 let chosen =
-                    joints.filter(|(joint, _)| truth.failed_joints.contains(joint) == locked);
+                    joints.filter(|(joint, _)| simulated.failed_joints.contains(joint) == locked);
                 chosen.map(|(_, torque)| torque).collect::<Vec<_>>()
             };
             let norm = |torque: &[f64]| of(torque, false).iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -83,7 +83,7 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
             writeln!(
                 page,
                 "| {} | `{}` | {} | {} | {} | {} |",
-                truth.failure_time,
+                simulated.failure_time,
                 run.method.map_or("none", name),
                 significant(norm(&run.predicted_step)),
                 significant(norm(&run.torque_step)),
@@ -92,7 +92,7 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
             )?;
         }
     }
-    if let Some(truth) = truths.get(truths.len() / 2) {
+    if let Some(simulated) = simulations.get(simulations.len() / 2) {
         writeln!(
             page,
             "\nWith ever shorter brakes their impulse tends to that of the ideal lock, -q̇_k/((M + R)⁻¹)_kk for a single joint k, \
@@ -100,9 +100,9 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
              A brake longer than the control cycle ({} s) also meets the feedback and what the plan asks for meanwhile. Lock at {} s:\n\n\
              | brake time, s | impulse, N·m·s | ideal lock | relative difference | peak torque of the brake, N·m |\n|---|---|---|---|---|",
             scenario.cycle(),
-            truth.failure_time
+            simulated.failure_time
         )?;
-        for point in &truth.convergence {
+        for point in &simulated.convergence {
             let listed = |impulses: &[f64]| {
                 let texts: Vec<_> = impulses
                     .iter()

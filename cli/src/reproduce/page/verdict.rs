@@ -37,8 +37,8 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
     where_none_helps(page, &verdicts)?;
     heaviest(page, sweeps)?;
     table(page, sweeps)?;
-    match &findings.truths {
-        Ok(truths) => besides::write(page, truths),
+    match &findings.simulations {
+        Ok(simulations) => besides::write(page, simulations),
         Err(_) => Ok(()),
     }
 }

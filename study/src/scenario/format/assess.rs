@@ -54,7 +54,7 @@ pub(in crate::scenario) static LOCKS_AT_ONCE: Key = Key::required(
 pub(in crate::scenario) static FORCE_BUDGETS: Key = Key::required(
     "force_budgets",
     Kind::List(&Kind::Number, "at least one"),
-    "How far the robust law may bend the static tool force; one law for each",
+    "How far a law may bend the static tool force: the robust law at all times, the on-line law and the one after the lock in their recourse; one law for each",
     "`force_budgets = [0.0, 5.0]`",
 )
 .limits(&[

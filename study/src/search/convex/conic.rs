@@ -95,7 +95,12 @@ impl Program {
 
     /// `A x ≤ b`, A on the variables from `first` on.
     pub(super) fn at_most_from(&mut self, first: usize, a: &DMatrix<f64>, b: &[f64]) {
-        self.constrain(&[(first, a)], b);
+        self.at_most_of(&[(first, a)], b);
+    }
+
+    /// `Σ A x ≤ b`.
+    pub(super) fn at_most_of(&mut self, blocks: &[(usize, &DMatrix<f64>)], b: &[f64]) {
+        self.constrain(blocks, b);
         self.cones.push(SupportedConeT::NonnegativeConeT(b.len()));
     }
 

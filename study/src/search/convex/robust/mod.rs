@@ -60,6 +60,9 @@ pub struct RobustOptions<const N: usize> {
     pub start: Option<f64>,
     /// Rated torques, N·m (N); infinite where there is no limit.
     pub rated_torque: SVector<f64, N>,
+    /// What the mean over the locks counts beside the worst of them: it decides where the worst leaves a choice. At least 0;
+    /// without meaning for [`RobustObjective::Expected`].
+    pub mean: f64,
     /// What U₀ costs: at every time `½ effort² ‖U₀‖²` (of N·m) is added to the objective, and decides among equals.
     pub effort: f64,
 }
@@ -73,6 +76,7 @@ impl<const N: usize> Default for RobustOptions<N> {
             rate: SVector::repeat(f64::INFINITY),
             start: None,
             rated_torque: SVector::repeat(f64::INFINITY),
+            mean: 0.0,
             effort: 1e-4,
         }
     }
@@ -165,7 +169,7 @@ fn solve<const N: usize>(
         .zip(kept)
         .map(|(moment, kept)| Part::new(moment, options, kept))
         .collect();
-    let layout = Layout::of(&parts, &options.objective);
+    let layout = Layout::of(&parts, &options.objective, options.mean);
     let mut program = Program::new(layout.variables);
     program.tolerance = TOLERANCE;
     for (i, part) in parts.iter().enumerate() {
@@ -231,6 +235,9 @@ fn check<const N: usize>(
     let argument = |name, range, value| Err(SearchError::Argument { name, range, value });
     if !(options.force_budget >= 0.0 && options.force_budget.is_finite()) {
         return argument("force budget", "at least 0 N", options.force_budget);
+    }
+    if !(options.mean >= 0.0 && options.mean.is_finite()) {
+        return argument("weight of the mean", "at least 0", options.mean);
     }
     if !(options.effort > 0.0 && options.effort.is_finite()) {
         return argument("effort", "above 0", options.effort);

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SVector};
 
-use super::rows::{keep_force, keep_force_of, keep_torque};
+use super::rows::{below, keep_force, keep_force_of, keep_torque};
 use super::{Moment, RobustObjective, RobustOptions, RobustSample};
 use crate::search::OperatingPoint;
 use crate::search::convex::conic::{Minimum, Program};
@@ -38,10 +38,12 @@ pub(super) struct Place {
     pub(super) before: usize,
     /// Of each lock: y_k and f_k.
     after: Vec<usize>,
-    /// s, or one for each lock.
+    /// What bounds each lock's norm: one variable for all of them, or one each.
     bounds: Vec<usize>,
-    /// What each lock's bound costs.
+    /// What each bound costs.
     costs: Vec<f64>,
+    /// What bounds those of several, at a cost of 1.
+    worst: Option<usize>,
 }
 
 pub(super) struct Layout {
@@ -50,7 +52,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    pub(super) fn of(parts: &[Part], objective: &RobustObjective) -> Self {
+    pub(super) fn of(parts: &[Part], objective: &RobustObjective, mean: f64) -> Self {
         let mut variables = 0;
         let mut take = |count: usize| {
             variables += count;
@@ -60,27 +62,34 @@ impl Layout {
         for part in parts {
             let before = take(part.before.torque.ncols());
             let after = part.locks.iter().map(|lock| take(lock.columns())).collect();
-            let (bounds, costs) = match objective {
-                RobustObjective::Expected(weights) => {
-                    let bounds = weights.iter().map(|_| take(1)).collect();
-                    (bounds, weights.clone())
+            let locks = part.locks.len();
+            let mut each = || (0..locks).map(|_| take(1)).collect();
+            let (bounds, costs, worst) = match objective {
+                RobustObjective::Expected(weights) => (each(), weights.clone(), None),
+                _ if mean > 0.0 => {
+                    let bounds = each();
+                    (bounds, vec![mean / locks as f64; locks], Some(take(1)))
                 }
-                _ => (vec![take(1); part.locks.len().max(1)], vec![1.0]),
+                _ => (vec![take(1); locks.max(1)], vec![1.0], None),
             };
             places.push(Place {
                 before,
                 after,
                 bounds,
                 costs,
+                worst,
             });
         }
         Self { places, variables }
     }
 
     pub(super) fn objective(&self, minimum: &Minimum) -> f64 {
-        let places = self.places.iter();
-        let costs = places.flat_map(|place| place.bounds.iter().zip(&place.costs));
-        costs.map(|(bound, cost)| cost * minimum.x[*bound]).sum()
+        let of_place = |place: &Place| {
+            let costs = place.bounds.iter().zip(&place.costs);
+            let each: f64 = costs.map(|(bound, cost)| cost * minimum.x[*bound]).sum();
+            each + place.worst.map_or(0.0, |worst| minimum.x[worst])
+        };
+        self.places.iter().map(of_place).sum()
     }
 }
 
@@ -117,6 +126,10 @@ impl Part {
         }
         for (bound, cost) in place.bounds.iter().zip(&place.costs) {
             program.linear[*bound] = *cost;
+        }
+        if let Some(worst) = place.worst {
+            program.linear[worst] = 1.0;
+            below(program, &place.bounds, worst);
         }
         keep_force(program, &self.before, place.before, options.force_budget);
         keep_torque(

@@ -72,3 +72,13 @@ pub(super) fn begin<const N: usize>(
         program.within(&[(place.before, &torque)], &room);
     }
 }
+
+/// `x_bound ≤ x_worst` for each of `bounds`, variables that stand one after the other.
+pub(super) fn below(program: &mut Program, bounds: &[usize], worst: usize) {
+    if let Some(first) = bounds.first() {
+        let count = bounds.len();
+        let each = DMatrix::identity(count, count);
+        let all = DMatrix::from_element(count, 1, -1.0);
+        program.at_most_of(&[(*first, &each), (worst, &all)], &vec![0.0; count]);
+    }
+}

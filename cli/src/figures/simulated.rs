@@ -4,7 +4,7 @@ use plotters::element::Text;
 use plotters::prelude::DrawingBackend;
 use plotters::style::text_anchor::{HPos, VPos};
 use ulna::JointKind;
-use ulna_study::experiment::{SearchMethod, Truth, TruthRun};
+use ulna_study::experiment::{SearchMethod, SimulatedLock, SimulatedRun};
 
 use super::chart::{Axes, Key, double_log_panel, legend, panel, range};
 use super::stroke::{CURVES, EVENT, Stroke};
@@ -19,7 +19,7 @@ const SIMULATED_EQ16: Stroke = Stroke::dashed(BLUE);
 
 /// The torques of some joints around a lock, predicted and simulated.
 pub(crate) struct SimulatedTorques<'s> {
-    pub(crate) truth: &'s Truth,
+    pub(crate) simulated: &'s SimulatedLock,
     /// Counted from 0.
     pub(crate) joints: &'s [usize],
     /// Of every joint.
@@ -38,8 +38,8 @@ impl Figure for SimulatedTorques<'_> {
             .iter()
             .map(|(_, _, stroke, label)| (Key::Stroke(*stroke), (*label).to_owned()));
         legend(&head, pen, &entries.collect::<Vec<_>>())?;
-        let setting = Setting::of(self.truth).with_brake();
-        let text = format!("lock at {} s; {setting}", self.truth.failure_time);
+        let setting = Setting::of(self.simulated).with_brake();
+        let text = format!("lock at {} s; {setting}", self.simulated.failure_time);
         let style = anchored(&pen.text(), HPos::Left, VPos::Center);
         head.draw(&Text::new(text, (pen.at(72), pen.at(40)), style))?;
         let areas = body.split_evenly((self.joints.len().div_ceil(2).max(1), 2));
@@ -58,7 +58,7 @@ impl Figure for SimulatedTorques<'_> {
             let all = || points.iter().flat_map(|(points, _)| points);
             let time = range(all().map(|point| point.0));
             let torque = range(all().map(|point| point.1));
-            let what = if self.truth.failed_joints.contains(joint) {
+            let what = if self.simulated.failed_joints.contains(joint) {
                 " (locks; brake and motor)"
             } else {
                 ""
@@ -73,8 +73,8 @@ impl Figure for SimulatedTorques<'_> {
                     y: (torque_label(self.kinds[*joint]), torque.clone()),
                 },
             )?;
-            let lock = self.truth.failure_time;
-            for event in [lock, lock + self.truth.brake_time] {
+            let lock = self.simulated.failure_time;
+            for event in [lock, lock + self.simulated.brake_time] {
                 EVENT.curve(
                     &mut panel,
                     pen,
@@ -91,17 +91,17 @@ impl Figure for SimulatedTorques<'_> {
 
 /// A run, which of its rows, how they are drawn and what they are called.
 type Curve<'s> = (
-    &'s TruthRun,
-    fn(&TruthRun) -> &Vec<Vec<f64>>,
+    &'s SimulatedRun,
+    fn(&SimulatedRun) -> &Vec<Vec<f64>>,
     Stroke,
     &'static str,
 );
 
 impl SimulatedTorques<'_> {
     fn curves(&self) -> Vec<Curve<'_>> {
-        let run = |method| self.truth.runs.iter().find(|run| run.method == method);
-        let simulated: fn(&TruthRun) -> &Vec<Vec<f64>> = |run| &run.torque;
-        let predicted: fn(&TruthRun) -> &Vec<Vec<f64>> = |run| &run.predicted_torque;
+        let run = |method| self.simulated.runs.iter().find(|run| run.method == method);
+        let simulated: fn(&SimulatedRun) -> &Vec<Vec<f64>> = |run| &run.torque;
+        let predicted: fn(&SimulatedRun) -> &Vec<Vec<f64>> = |run| &run.predicted_torque;
         let pairs = [
             (
                 None,
@@ -132,7 +132,7 @@ impl SimulatedTorques<'_> {
 /// How the impulse of the brakes tends to that of the ideal lock.
 pub(crate) struct Convergence<'s> {
     /// One for each failure time.
-    pub(crate) truths: &'s [Truth],
+    pub(crate) simulations: &'s [SimulatedLock],
 }
 
 impl Figure for Convergence<'_> {
@@ -142,16 +142,16 @@ impl Figure for Convergence<'_> {
 
     fn draw<DB: DrawingBackend>(&self, area: &Area<DB>, pen: Pen) -> Drawn<DB> {
         let (head, body) = area.split_vertically(pen.px(34));
-        let curves = || self.truths.iter().zip(CURVES.into_iter().cycle());
-        let entries = curves().map(|(truth, stroke)| {
+        let curves = || self.simulations.iter().zip(CURVES.into_iter().cycle());
+        let entries = curves().map(|(simulated, stroke)| {
             (
                 Key::Stroke(stroke),
-                format!("lock at {} s", truth.failure_time),
+                format!("lock at {} s", simulated.failure_time),
             )
         });
         legend(&head, pen, &entries.collect::<Vec<_>>())?;
-        let points = |truth: &Truth| {
-            let points = truth
+        let points = |simulated: &SimulatedLock| {
+            let points = simulated
                 .convergence
                 .iter()
                 .map(|point| (point.brake_time, point.relative_difference));
@@ -159,14 +159,14 @@ impl Figure for Convergence<'_> {
                 .filter(|(_, difference)| *difference > 0.0)
                 .collect::<Vec<_>>()
         };
-        let all: Vec<_> = self.truths.iter().flat_map(points).collect();
+        let all: Vec<_> = self.simulations.iter().flat_map(points).collect();
         let span = |values: &mut dyn Iterator<Item = f64>| {
             let (least, most) = values.fold((1.0_f64, 1e-12_f64), |(least, most), value| {
                 (least.min(value), most.max(value))
             });
             least / 2.0..most.max(least) * 2.0
         };
-        let setting = self.truths.first().map(Setting::of);
+        let setting = self.simulations.first().map(Setting::of);
         let setting = setting.map_or_else(String::new, |setting| setting.drives_shortly());
         let mut panel = double_log_panel(
             &body,
@@ -183,9 +183,9 @@ impl Figure for Convergence<'_> {
                 ),
             },
         )?;
-        for (truth, stroke) in curves() {
-            stroke.curve(&mut panel, pen, &points(truth))?;
-            for point in points(truth) {
+        for (simulated, stroke) in curves() {
+            stroke.curve(&mut panel, pen, &points(simulated))?;
+            for point in points(simulated) {
                 Marker::Circle.draw(panel.plotting_area(), pen, point, stroke.colour)?;
             }
         }

@@ -1,4 +1,4 @@
-//! [`Truth`]: what the arm really does at the lock, beside the impact torque that the paper predicts.
+//! [`SimulatedLock`]: what the arm really does at the lock, beside the impact torque that the paper predicts.
 
 use nalgebra::SVector;
 
@@ -12,7 +12,7 @@ use ulna::control::failure::{Failure, LockedJoints};
 
 /// One experiment and one failure time, simulated with brakes that take time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Truth {
+pub struct SimulatedLock {
     /// [`Experiment::section`].
     pub section: String,
     /// When the brakes fall, s.
@@ -38,7 +38,7 @@ pub struct Truth {
     /// Without compensation, with ever shorter brakes.
     pub convergence: Vec<BrakeImpulse>,
     /// Without compensation and with those of three methods.
-    pub runs: Vec<TruthRun>,
+    pub runs: Vec<SimulatedRun>,
     /// The methods whose compensation moves the arm so violently that the simulation did not come to its end, and how that ended:
     /// they are not among the runs.
     pub unfinished: Vec<(SearchMethod, Ending)>,
@@ -65,7 +65,7 @@ pub struct BrakeImpulse {
 
 /// A simulated lock.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TruthRun {
+pub struct SimulatedRun {
     /// `None` without compensation.
     pub method: Option<SearchMethod>,
     /// The step of each joint's torque as the paper predicts it, after minus before, N·m (N).
@@ -88,7 +88,7 @@ pub struct TruthRun {
     pub predicted_torque: Vec<Vec<f64>>,
 }
 
-/// The brake times of [`Truth::convergence`], s.
+/// The brake times of [`SimulatedLock::convergence`], s.
 const BRAKE_TIMES: [f64; 11] = [
     1.0, 3e-1, 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5,
 ];
@@ -100,16 +100,16 @@ impl<const N: usize> ExperimentRunner<'_, N> {
     ///
     /// # Errors
     /// As [`study`](Self::study), and when the simulation without compensation cannot be run to its end.
-    pub fn truth(
+    pub fn simulated_lock(
         &self,
         experiment: &Experiment,
         failure_time: f64,
-    ) -> Result<Truth, ExperimentError> {
+    ) -> Result<SimulatedLock, ExperimentError> {
         let operation = self.operation(experiment, failure_time)?;
         let lock = self.lock(failure_time)?;
         let (mut runs, mut unfinished) = (Vec::new(), Vec::new());
         for (method, compensation) in self.compensations(&operation) {
-            let run = self.run_truth(experiment, method, compensation, &lock);
+            let run = self.run_simulation(experiment, method, compensation, &lock);
             match (run, method) {
                 (Err(ExperimentError::Unfinished { ending, .. }), Some(method)) => {
                     unfinished.push((method, ending));
@@ -126,7 +126,7 @@ impl<const N: usize> ExperimentRunner<'_, N> {
             let fits = failure_time + duration <= self.motion().duration();
             fits.then(|| self.brake_impulse(experiment, &Lock { brake, ..lock }))
         });
-        Ok(Truth {
+        Ok(SimulatedLock {
             section: experiment.section().to_owned(),
             failure_time,
             failed_joints: lock.brake.failure.joints.iter().collect(),
@@ -153,17 +153,17 @@ impl<const N: usize> ExperimentRunner<'_, N> {
             })
     }
 
-    fn run_truth(
+    fn run_simulation(
         &self,
         experiment: &Experiment,
         method: Option<SearchMethod>,
         compensation: Compensation<N>,
         lock: &Lock<N>,
-    ) -> Result<TruthRun, ExperimentError> {
+    ) -> Result<SimulatedRun, ExperimentError> {
         let failure = lock.brake.failure;
         let start = lock.span().start;
         let end = failure.time + AFTER + lock.settled();
-        let mut run = TruthRun {
+        let mut run = SimulatedRun {
             method,
             predicted_step: Vec::new(),
             torque_step: Vec::new(),
@@ -203,7 +203,7 @@ impl<const N: usize> ExperimentRunner<'_, N> {
         Ok(run)
     }
 
-    /// [`TruthRun::tool_acceleration`].
+    /// [`SimulatedRun::tool_acceleration`].
     fn moved_tool(
         &self,
         experiment: &Experiment,

@@ -7,7 +7,7 @@ use ulna::control::compensation::Projector;
 use ulna::{Arm, LockedJoints, Trajectory};
 use ulna_generated::Ssrms;
 use ulna_study::experiment::{
-    Campaign, ExperimentRunner, Rotors, SearchMethod, Sweep, Truth, TruthRun, Verdict,
+    Campaign, ExperimentRunner, Rotors, SearchMethod, SimulatedLock, SimulatedRun, Sweep, Verdict,
 };
 use ulna_study::scenario::KnownArm;
 use ulna_study::simulation::Ending;
@@ -32,23 +32,29 @@ fn scenario(edits: &[(&str, &str)], drives: &str) -> Scenario {
         .unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-fn truth(scenario: &Scenario, time: f64) -> Truth {
+fn simulated(scenario: &Scenario, time: f64) -> SimulatedLock {
     let runner = ExperimentRunner::new(&Ssrms, scenario).unwrap();
-    runner.truth(&scenario.experiments()[0], time).unwrap()
+    runner
+        .simulated_lock(&scenario.experiments()[0], time)
+        .unwrap()
 }
 
 /// The paper-like scenario's locks.
-fn truths() -> &'static [Truth] {
-    static TRUTHS: OnceLock<Vec<Truth>> = OnceLock::new();
-    TRUTHS.get_or_init(|| {
+fn simulations() -> &'static [SimulatedLock] {
+    static SIMULATIONS: OnceLock<Vec<SimulatedLock>> = OnceLock::new();
+    SIMULATIONS.get_or_init(|| {
         let scenario = scenario(&[], "");
         let times = scenario.failure_times().iter();
-        times.map(|time| truth(&scenario, *time)).collect()
+        times.map(|time| simulated(&scenario, *time)).collect()
     })
 }
 
-fn run(truth: &Truth, method: Option<SearchMethod>) -> &TruthRun {
-    truth.runs.iter().find(|run| run.method == method).unwrap()
+fn run(simulated: &SimulatedLock, method: Option<SearchMethod>) -> &SimulatedRun {
+    simulated
+        .runs
+        .iter()
+        .find(|run| run.method == method)
+        .unwrap()
 }
 
 fn healthy_norm(torque: &[f64]) -> f64 {
@@ -101,9 +107,9 @@ fn a_sweep_has_every_gain_and_rotors_and_the_scenarios_own() {
     assert_eq!(sweep.points.len(), 4 * 5 * 4);
     assert!(sweep.points.iter().all(|point| point.felt.is_some()));
     // The same lock as in the truth of the scenario.
-    let truth = &truths()[1];
+    let simulated = &simulations()[1];
     for method in [None, Some(SearchMethod::Optimal)] {
-        let step = healthy_norm(&run(truth, method).torque_step);
+        let step = healthy_norm(&run(simulated, method).torque_step);
         assert_close(sweep.felt(5.0, &NONE, method).unwrap().step, step, 1e-6);
     }
 }
@@ -143,9 +149,9 @@ fn rotors_of_the_scenario_are_among_those_of_the_sweep() {
     // 20 rad/s are too many for 0.1 s.
     assert_eq!(sweep.gains, [0.0, 1.0, 2.5, 5.0]);
     assert_eq!(sweep.unstable_gains, [20.0]);
-    let truth = truth(&scenario, 3.0);
-    assert_eq!(truth.gain, 2.5);
-    let step = healthy_norm(&run(&truth, None).torque_step);
+    let simulated = simulated(&scenario, 3.0);
+    assert_eq!(simulated.gain, 2.5);
+    let step = healthy_norm(&run(&simulated, None).torque_step);
     assert_close(sweep.felt(2.5, &own, None).unwrap().step, step, 1e-6);
     let light = sweep.felt(2.5, &NONE, None).unwrap().step;
     assert!((step / light - 1.0).abs() > 1e-3, "{step} {light}");
@@ -154,13 +160,13 @@ fn rotors_of_the_scenario_are_among_those_of_the_sweep() {
 /// Eq. 1–12 have −q̈_k alone; here the rate's share, by M's column of the joint that stops.
 #[test]
 fn the_rates_share_of_a_brake_stands_beside_the_predicted_step() {
-    for (truth, expected) in truths().iter().zip([340.3, 833.8, 288.6]) {
-        assert_close(healthy_norm(&truth.braking_step), expected, 1e-3);
+    for (simulated, expected) in simulations().iter().zip([340.3, 833.8, 288.6]) {
+        assert_close(healthy_norm(&simulated.braking_step), expected, 1e-3);
         let scenario = scenario(&[], "");
         let runner = ExperimentRunner::new(&Ssrms, &scenario).unwrap();
-        let state = runner.motion().state(truth.failure_time);
+        let state = runner.motion().state(simulated.failure_time);
         let column = Ssrms.mass_matrix(&state.q).column(1) * (-state.qd[1] / 0.1);
-        for (step, expected) in truth.braking_step.iter().zip(column.iter()) {
+        for (step, expected) in simulated.braking_step.iter().zip(column.iter()) {
             assert!((step - expected).abs() < 1e-9);
         }
     }
@@ -168,9 +174,9 @@ fn the_rates_share_of_a_brake_stands_beside_the_predicted_step() {
 
 #[test]
 fn what_eq_16_does_to_the_tool_is_what_another_program_found() {
-    for (truth, expected) in truths().iter().zip([2.816, 4.965, 0.1112]) {
-        assert_eq!(run(truth, None).tool_acceleration, 0.0);
-        let found = run(truth, Some(SearchMethod::PerJoint)).tool_acceleration;
+    for (simulated, expected) in simulations().iter().zip([2.816, 4.965, 0.1112]) {
+        assert_eq!(run(simulated, None).tool_acceleration, 0.0);
+        let found = run(simulated, Some(SearchMethod::PerJoint)).tool_acceleration;
         assert_close(found, expected, 1e-3);
     }
 }
@@ -197,12 +203,12 @@ fn the_projector_reaches_searches_rollouts_and_simulations() {
         let step = series.torque[lock + 1][joint] - series.torque[lock][joint];
         assert!((step.abs() - case.impact_after[joint]).abs() < 1e-7);
     }
-    let at_rest = &truths()[1];
-    let in_motion = truth(&scenario(&[], consistent), 10.0);
+    let at_rest = &simulations()[1];
+    let in_motion = simulated(&scenario(&[], consistent), 10.0);
     assert_eq!(at_rest.projector, Projector::Static);
     assert_eq!(in_motion.projector, Projector::DynamicallyConsistent);
-    for truth in [at_rest, &in_motion] {
-        assert!(truth.unfinished.is_empty() && truth.runs.len() == 4);
+    for simulated in [at_rest, &in_motion] {
+        assert!(simulated.unfinished.is_empty() && simulated.runs.len() == 4);
     }
     assert!(run(at_rest, Some(method)).tool_acceleration > 0.1);
     assert!(run(&in_motion, Some(method)).tool_acceleration < 1e-9);
@@ -225,10 +231,10 @@ fn a_compensation_that_flings_the_arm_off_is_named_and_the_others_are_simulated(
     let told = PAPER_LIKE.matches("\ntime = 10.0").count();
     faster.extend(vec![("\ntime = 10.0", "\ntime = 2.5"); told]);
     let servo = "[servo]\nprojector = \"dynamically_consistent\"";
-    let truth = truth(&scenario(&faster, servo), 2.5);
+    let simulated = simulated(&scenario(&faster, servo), 2.5);
     let flung = [(SearchMethod::PerJoint, Ending::StepTooShort)];
-    assert_eq!(truth.unfinished, flung);
-    let methods: Vec<_> = truth.runs.iter().map(|run| run.method).collect();
+    assert_eq!(simulated.unfinished, flung);
+    let methods: Vec<_> = simulated.runs.iter().map(|run| run.method).collect();
     let simulated = [
         None,
         Some(SearchMethod::Projected),
@@ -240,8 +246,8 @@ fn a_compensation_that_flings_the_arm_off_is_named_and_the_others_are_simulated(
 /// Until the controller knows, the motor of the joint that fails goes on.
 #[test]
 fn detection_and_lead_reach_the_simulation() {
-    let at_once = &truths()[1];
-    let late = truth(
+    let at_once = &simulations()[1];
+    let late = simulated(
         &scenario(&[], "[servo]\ndetection = 0.2\nlead = 0.05"),
         10.0,
     );
@@ -250,13 +256,13 @@ fn detection_and_lead_reach_the_simulation() {
     assert!((run(&late, None).time[0] - 9.95).abs() < 1e-9);
     assert!((run(at_once, None).time[0] - 9.75).abs() < 1e-9);
     // The step counts to when the controller knows: later, and another.
-    let steps = [at_once, &late].map(|truth| healthy_norm(&run(truth, None).torque_step));
+    let steps = [at_once, &late].map(|simulated| healthy_norm(&run(simulated, None).torque_step));
     assert!((steps[0] / steps[1] - 1.0).abs() > 0.05, "{steps:?}");
     // What stops the joint in no time is the same impulse, known or not.
-    let impulse = |truth: &Truth| truth.convergence.last().unwrap().impulse[0];
+    let impulse = |simulated: &SimulatedLock| simulated.convergence.last().unwrap().impulse[0];
     assert_close(impulse(&late), impulse(at_once), 1e-3);
     // At the motion's begin there is nothing before.
-    let early = truth(&scenario(&[], ""), 0.1);
+    let early = simulated(&scenario(&[], ""), 0.1);
     assert_eq!(early.lead, 0.1);
     let joints = LockedJoints::<7>::new(&early.failed_joints).unwrap();
     assert!(joints.contains(1) && run(&early, None).time[0] == 0.0);
