@@ -263,7 +263,7 @@ fn laws_stand_to_each_other_as_they_must() {
             assert!(law.force_error <= law.max_force_error * (1.0 + 1e-12));
         }
         // Joint 7 has no coefficient and no step.
-        if result.before > 0.1 {
+        if result.before > 0.01 {
             cases += 1;
             for (count, law) in cancelled.iter_mut().zip([eq16, kinematic]) {
                 *count += u32::from(law.impact < 1e-3 * result.before);
