@@ -6,7 +6,7 @@ use ulna_study::experiment::Case;
 
 use super::force::Asked;
 use super::words::{name, status};
-use super::{Findings, csv, limited, plan_steps, structure};
+use super::{Findings, csv, limited, plan_steps, structure, worse};
 use crate::output::Files;
 
 /// `results.json`. Its cases are the exact ones; those of the search in steps are in `search.csv` and `impact.csv`.
@@ -32,6 +32,10 @@ struct ResultCase<'s> {
     suppression_percent: Vec<f64>,
     /// k_d. The optimal law has none: for it those of Eq. 16 that would change each joint's step at the lock alike.
     coefficients: &'s [f64],
+    /// The healthy joints whose own step grows, counted from 1.
+    worse_joints: Vec<usize>,
+    /// Where the law keeps the tool force: the margin of the proof that no such law lowers every joint, N m per N; `null` without one.
+    certificate_margin: Option<f64>,
     force_error_at_lock: f64,
     max_force_error: f64,
     /// What the tool is to exert, in the components of the task.
@@ -71,23 +75,27 @@ pub(super) fn add(
         let studies = findings.of_section(experiment).into_iter();
         studies.flat_map(|study| {
             let asked = findings.asked(experiment, study);
-            study.cases.iter().map(move |case| (case, asked))
+            let margin = worse::margin(study);
+            study.cases.iter().map(move |case| (case, asked, margin))
         })
     });
-    let exact = cases.clone().filter(|(case, _)| !case.method.is_stepwise());
+    let exact = cases
+        .clone()
+        .filter(|(case, ..)| !case.method.is_stepwise());
     let results = Results {
         arm: scenario.arm().name(),
         scenario: scenario.name(),
         cases: exact
             .clone()
-            .map(|(case, asked)| result(case, asked))
+            .map(|(case, asked, margin)| result(case, asked, margin))
             .collect(),
     };
+    let beside = cases.map(|(case, asked, _)| (case, asked));
     let mut json = serde_json::to_vec_pretty(&results)?;
     json.push(b'\n');
     files.add("results.json", json);
-    files.add("impact.csv", csv::impacts(cases.clone())?);
-    files.add("search.csv", csv::searches(cases)?);
+    files.add("impact.csv", csv::impacts(beside.clone())?);
+    files.add("search.csv", csv::searches(beside)?);
     files.add("frontier.csv", csv::frontiers(studies)?);
     files.add("limits.csv", limited::csv(&findings.limited)?);
     files.add("plan_steps.csv", plan_steps::csv(&findings.plan_steps)?);
@@ -96,7 +104,7 @@ pub(super) fn add(
         files.add("simulation.csv", csv::simulations(simulations)?);
         files.add("convergence.csv", csv::convergence(simulations)?);
     }
-    for (case, _) in exact {
+    for (case, ..) in exact {
         let Case {
             section,
             failure_time,
@@ -109,8 +117,11 @@ pub(super) fn add(
     Ok(())
 }
 
-fn result(case: &Case, asked: Asked) -> ResultCase<'_> {
+fn result(case: &Case, asked: Asked, margin: Option<f64>) -> ResultCase<'_> {
+    let worse = case.worse_joints();
     ResultCase {
+        worse_joints: worse.iter().map(|worse| worse.joint + 1).collect(),
+        certificate_margin: margin.filter(|_| worse::keeps_force(case.method)),
         section: &case.section,
         law: name(case.method),
         failed_joint: FailedJoint::of(case),

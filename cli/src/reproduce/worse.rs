@@ -32,9 +32,10 @@ pub(super) fn lines(study: &Study, methods: &[(SearchMethod, &str)]) -> Vec<Stri
         if case.search.is_err() {
             continue;
         }
-        let keeps_force = matches!(method.law(), Law::Projected | Law::Optimal);
         let beside = match &proof {
-            Some((_, margin)) if keeps_force => format!("; certificate {margin} N m per N"),
+            Some((_, margin)) if keeps_force(*method) => {
+                format!("; certificate {margin} N m per N")
+            }
             _ => String::new(),
         };
         lines.push(format!("{title}: {}{beside}", line(case)));
@@ -47,6 +48,19 @@ pub(super) fn lines(study: &Study, methods: &[(SearchMethod, &str)]) -> Vec<Stri
     }
     lines.extend(limit(study));
     lines
+}
+
+/// Whether a method's law keeps the static tool force.
+pub(super) fn keeps_force(method: SearchMethod) -> bool {
+    matches!(method.law(), Law::Projected | Law::Optimal)
+}
+
+/// The margin of the proof that no law which keeps the tool force lowers every joint, N·m per N, if there is one.
+pub(super) fn margin(study: &Study) -> Option<f64> {
+    match &study.force_kept.all {
+        Ok(Lowerable::None { margin, .. }) => Some(*margin),
+        _ => None,
+    }
 }
 
 /// "worse off: joint 4 at 2.50 times its step", or that no joint is.

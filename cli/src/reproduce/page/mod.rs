@@ -145,7 +145,7 @@ fn files(page: &mut String) -> fmt::Result {
          - `results.json`: every case with its exact search. \
          `coefficients` are k_d; the law `optimal` has none, and in their place are those of Eq. 16 that would change each joint's step at the lock alike. \
          `failed_joint` counts from 1, and is a list where several lock together. `rated_torque` is `null` where there is none. \
-         `force_error_at_lock` is the larger of just before and just after the lock; `max_force_error` and `max_torque` are over all control cycles; \
+         `worse_joints` are the healthy ones whose own step grows; `certificate_margin`, in N·m per N, proves that no law which keeps the tool force lowers every joint. `force_error_at_lock` is the larger of just before and just after the lock; `max_force_error` and `max_torque` are over all control cycles; \
          `asked_force_at_lock` and `max_asked_force` are what the tool is to exert.\n\
          - `impact.csv`: a row for each case and joint, the search in steps among them.\n\
          - `search.csv`: the searches side by side: how they ended, gap, iterations, seconds, quality.\n\

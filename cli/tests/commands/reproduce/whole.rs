@@ -131,6 +131,8 @@ fn results_are_as_promised(output: &Path) {
             "impact_after",
             "suppression_percent",
             "coefficients",
+            "worse_joints",
+            "certificate_margin",
             "force_error_at_lock",
             "max_force_error",
             "asked_force_at_lock",
@@ -161,6 +163,12 @@ fn results_are_as_promised(output: &Path) {
     assert!((at_lock - 13.71).abs() < 0.01, "{at_lock}");
     let asked = cases[0]["asked_force_at_lock"].as_f64().unwrap();
     assert!((asked - 1200_f64.sqrt()).abs() < 1e-9, "{asked}");
+    // Eq. 16, which bends the force, lowers every joint; nothing that keeps it can.
+    assert!(cases[0]["worse_joints"].as_array().unwrap().is_empty());
+    assert!(cases[0]["certificate_margin"].is_null());
+    assert_eq!(numbers(&cases[1], "worse_joints"), [4.0, 5.0, 6.0]);
+    let margin = cases[1]["certificate_margin"].as_f64().unwrap();
+    assert!((margin - 0.5564).abs() < 1e-3, "{margin}");
     assert!(cases[1]["max_force_error"].as_f64().unwrap() < 1e-6);
     let peaks = numbers(&cases[3], "max_torque");
     let rated = numbers(&cases[3], "rated_torque");
