@@ -573,8 +573,7 @@ fn robustness(table: &mut Table, setting: &Setting) -> Result<(), Box<dyn Error>
         let worst = plan.samples.iter().zip(&moments).map(|(sample, moment)| {
             let locks = sample.impact.iter().zip(&moment.after);
             let ratio = |(impact, after): (&f64, &ulna_study::search::OperatingPoint<7>)| {
-                let step = after.planned - moment.before.planned;
-                impact / after.locked.without(&step).norm()
+                impact / moment.step(after).norm()
             };
             locks.map(ratio).fold(0.0, f64::max)
         });

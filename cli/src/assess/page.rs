@@ -22,11 +22,7 @@ pub(super) fn write(findings: &Findings<'_>) -> String {
     let (head, rows) = columns(findings);
     // A bar would end the cell.
     let head: Vec<_> = head.iter().map(|text| text.replace('|', "\\|")).collect();
-    let _ = writeln!(page, "| {} |", head.join(" | "));
-    let _ = writeln!(page, "|{}", " --- |".repeat(head.len()));
-    for row in rows {
-        let _ = writeln!(page, "| {} |", row.join(" | "));
-    }
+    table(&mut page, &head, &rows);
     let _ = write!(
         page,
         "\nThe force error is the static one of Eq. 13, at worst over the whole motion, and at the lock; what the tool is to exert is not in it.\n\
@@ -46,11 +42,8 @@ pub(super) fn write(findings: &Findings<'_>) -> String {
             let _ = writeln!(page, "- {sentence}");
         }
         let (head, rows) = felt_columns(findings);
-        let _ = writeln!(page, "\n| {} |", head.join(" | "));
-        let _ = writeln!(page, "|{}", " --- |".repeat(head.len()));
-        for row in rows {
-            let _ = writeln!(page, "| {} |", row.join(" | "));
-        }
+        page.push('\n');
+        table(&mut page, &head, &rows);
     }
     let notes = findings.assessment.laws.iter();
     let notes: Vec<_> = notes.filter(|law| !law.note.is_empty()).collect();
@@ -61,6 +54,15 @@ pub(super) fn write(findings: &Findings<'_>) -> String {
         }
     }
     page
+}
+
+/// A table in Markdown.
+fn table(page: &mut String, head: &[String], rows: &[Vec<String>]) {
+    let _ = writeln!(page, "| {} |", head.join(" | "));
+    let _ = writeln!(page, "|{}", " --- |".repeat(head.len()));
+    for row in rows {
+        let _ = writeln!(page, "| {} |", row.join(" | "));
+    }
 }
 
 /// A force error below it is rounding, N.

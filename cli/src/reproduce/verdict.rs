@@ -1,6 +1,6 @@
 //! The sweep over gains and rotors: its table, its CSV files, its figure.
 
-use comfy_table::{CellAlignment, Table, presets};
+use comfy_table::Table;
 use serde::Serialize;
 use ulna_study::experiment::{LockVerdict, SearchMethod, SimulatedLock, Sweep, Verdict};
 
@@ -9,6 +9,7 @@ use ulna_study::Scenario;
 use super::Findings;
 use super::drawings::footer;
 use super::words::{name, significant};
+use crate::columns::plain;
 use crate::figures::{self, FeltSteps};
 use crate::output::Files;
 use crate::rows::file;
@@ -63,7 +64,6 @@ pub(super) fn outcome(lock: &LockVerdict) -> String {
 /// A row for each gain, rotors and lock.
 pub(super) fn table(sweeps: &[Sweep]) -> String {
     let mut table = Table::new();
-    table.load_style(presets::NOTHING);
     let mut header = ["at", "gain, rad/s", "rotors, kg m^2", "none"]
         .map(str::to_owned)
         .to_vec();
@@ -92,12 +92,7 @@ pub(super) fn table(sweeps: &[Sweep]) -> String {
             table.add_row(row);
         }
     }
-    for (index, column) in table.column_iter_mut().enumerate() {
-        if index < 4 + METHODS.len() {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    table.trim_fmt()
+    plain(table, &[4 + METHODS.len()])
 }
 
 /// What stands above the table.

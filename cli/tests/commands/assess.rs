@@ -5,22 +5,15 @@ use std::fs;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{stderr, stdout, ulna};
+use crate::support::{edited_scenario, stderr, stdout, ulna};
 
 /// A folder with `coarse.toml`: the paper-like scenario on a grid of few failures, and `edits`.
 fn coarse_scenario(edits: &[(&str, &str)]) -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let mut text = include_str!("../../../scenarios/paper_like.toml").to_owned();
     let coarse = [
         ("failure_times = 79", "failure_times = 3"),
         ("locks_at_once = 2", "locks_at_once = 1"),
     ];
-    for (from, to) in coarse.iter().chain(edits) {
-        assert!(text.contains(from), "the scenario has no {from:?}");
-        text = text.replacen(from, to, 1);
-    }
-    fs::write(folder.path().join("coarse.toml"), text).unwrap();
-    folder
+    edited_scenario("coarse.toml", coarse.iter().chain(edits))
 }
 
 fn path(folder: &TempDir, name: &str) -> String {

@@ -28,6 +28,21 @@ pub(crate) fn stderr(run: &Assert) -> String {
     String::from_utf8(run.get_output().stderr.clone()).unwrap()
 }
 
+/// A folder with `name`: the paper-like scenario with each of `edits`, from one text to another.
+pub(crate) fn edited_scenario<'e>(
+    name: &str,
+    edits: impl IntoIterator<Item = &'e (&'e str, &'e str)>,
+) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = include_str!("../../../scenarios/paper_like.toml").to_owned();
+    for (from, to) in edits {
+        assert!(text.contains(from), "the scenario has no {from:?}");
+        text = text.replacen(from, to, 1);
+    }
+    std::fs::write(folder.path().join(name), text).unwrap();
+    folder
+}
+
 /// A folder with `bad.toml`, whose joint 2 has neither a sensible mass nor an `alpha`.
 pub(crate) fn folder_with_bad_table() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();

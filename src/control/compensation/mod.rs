@@ -62,6 +62,16 @@ pub struct FreeTorque<const N: usize> {
     pub wrench: Vector6<f64>,
 }
 
+impl<const N: usize> FreeTorque<N> {
+    /// Nothing.
+    pub fn none() -> Self {
+        Self {
+            torque: SVector::zeros(),
+            wrench: Vector6::zeros(),
+        }
+    }
+}
+
 impl<const N: usize> Compensation<N> {
     /// No compensation at all.
     pub fn none() -> Self {

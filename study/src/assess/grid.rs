@@ -2,16 +2,16 @@
 
 use std::fmt;
 
-use nalgebra::{SVector, Vector6};
+use nalgebra::SVector;
 
 use super::case::AssessedCase;
-use super::law::{AssessedLaw, Law, Plan, Tactic, Tuning, torque};
+use super::law::{AssessedLaw, Law, Plan, Tactic, Tuning};
 use crate::experiment::{AnyArm, ExperimentError, KNOT_PERIOD, rated_torque_of};
 use crate::scenario::{Experiment, PlannedMotion, Scenario};
 use crate::search::{
-    CoefficientLaw, Field, ForcePriority, Moment, Objective, OperatingPoint, Operation,
-    OperationOptions, RobustObjective, RobustOptions, SearchError, best_constant, cancel_per_joint,
-    least_impact, optimal, robust,
+    CoefficientLaw, Field, ForcePriority, Moment, Objective, Operation, OperationOptions,
+    RobustObjective, RobustOptions, SearchError, best_constant, cancel_per_joint, least_impact,
+    optimal, robust,
 };
 use ulna::Trajectory;
 use ulna::control::compensation::{self, Compensation, FreeTorque, OnLine, Projector, TaskPose};
@@ -175,7 +175,13 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
         let chosen = self.scenario.assess().laws();
         let mut laws = vec![plain(Law::None, Tactic::Constant(Compensation::none()))];
         laws.extend(self.tuned()?);
-        let moments = self.moments()?;
+        // All locks at all times, if a law is made for them.
+        let planned = [Law::ConstantPerJoint, Law::ConstantProjected, Law::Robust];
+        let moments = if planned.iter().any(|law| chosen.contains(*law)) {
+            self.moments()?
+        } else {
+            Vec::new()
+        };
         for (law, coefficients) in [
             (Law::ConstantPerJoint, CoefficientLaw::PerJoint),
             (Law::ConstantProjected, CoefficientLaw::Projected),
@@ -233,8 +239,9 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
                     Some(AssessedCase::new(&operation, &assessment))
                 }
                 Tactic::Kinematic(compensation) => {
-                    let operation = self.operation(joints, time, Field::KinematicManipulability)?;
-                    let assessment = operation.assess(compensation);
+                    let field = Field::KinematicManipulability;
+                    let assessment =
+                        operation.assess_along(self.arm, &self.motion, field, compensation);
                     Some(AssessedCase::new(&operation, &assessment))
                 }
                 Tactic::Planned(plan) => Some(planned(&operation, plan, self.place(failure))),
@@ -308,7 +315,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
             let pose = TaskPose::new(self.arm, &state.q, none, Projector::Static);
             FreeTorque {
                 torque: law.compensation(self.arm, &state, &pose, none),
-                wrench: Vector6::zeros(),
+                ..FreeTorque::none()
             }
         });
         Plan {
@@ -353,14 +360,10 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
                 found.objective,
                 found.seconds
             );
-            let rest = FreeTorque {
-                torque: SVector::zeros(),
-                wrench: Vector6::zeros(),
-            };
             let samples = found.samples.iter().map(|sample| sample.before);
             let plan = Plan {
                 period: self.spacing(),
-                samples: std::iter::once(rest).chain(samples).collect(),
+                samples: std::iter::once(FreeTorque::none()).chain(samples).collect(),
                 recourses: found
                     .samples
                     .iter()
@@ -381,10 +384,7 @@ impl<'a, const N: usize> FailureGrid<'a, N> {
     /// All but the budget.
     fn robust_options(&self, moments: &[Moment<N>]) -> RobustOptions<N> {
         let steps = moments.iter().flat_map(|moment| {
-            let step = |after: &OperatingPoint<N>| {
-                let step = after.planned - moment.before.planned;
-                after.locked.without(&step).norm()
-            };
+            let step = |after| moment.step(after).norm();
             moment.after.iter().map(step)
         });
         let largest = steps.fold(0.0, f64::max);
@@ -442,7 +442,7 @@ fn planned<const N: usize>(
         if point.locked.is_empty() {
             plan.before(point)
         } else {
-            torque(point, &recourse) * plan.fade(point.time - operation.failure().time)
+            point.compensation(&recourse) * plan.fade(point.time - operation.failure().time)
         }
     });
     AssessedCase::new(operation, &assessment)

@@ -127,7 +127,7 @@ impl<const N: usize> FailureGrid<'_, N> {
         let (joints, time) = self.failure(failure);
         let operation = self.operation(joints, time, Field::DynamicManipulability)?;
         let felt = laws.iter().map(|law| {
-            let Some(compensation) = self.around(law, &operation, self.place(failure))? else {
+            let Some(compensation) = self.around(law, &operation, self.place(failure)) else {
                 return Ok(None);
             };
             self.simulate(&operation, compensation, gain)
@@ -141,13 +141,13 @@ impl<const N: usize> FailureGrid<'_, N> {
         law: &AssessedLaw<N>,
         operation: &Operation<N>,
         place: (usize, usize),
-    ) -> Result<Option<Compensation<N>>, ExperimentError> {
-        Ok(match &law.tactic {
+    ) -> Option<Compensation<N>> {
+        match &law.tactic {
             Tactic::Constant(compensation) => Some(*compensation),
             Tactic::Kinematic(compensation) => {
-                let failure = operation.failure();
                 let field = Field::KinematicManipulability;
-                let kinematic = self.operation(failure.joints, failure.time, field)?;
+                let lock = operation.at_lock();
+                let kinematic = lock.with_field(self.arm(), self.motion(), field);
                 let [before, after] = [kinematic.before(), kinematic.after()].map(|point| {
                     let u = point.pose.compensation(compensation);
                     // All of U: what P leaves of it, and what it does to the tool force.
@@ -165,7 +165,7 @@ impl<const N: usize> FailureGrid<'_, N> {
             Tactic::Known => optimal(operation, ForcePriority::Exact)
                 .ok()
                 .map(|found| found.compensation),
-        })
+        }
     }
 
     fn simulate(

@@ -1,6 +1,6 @@
 //! [`AssessedLaw`]: a law, how it was tuned, and what it does at any time of the motion.
 
-use nalgebra::{SVector, Vector6};
+use nalgebra::SVector;
 
 use crate::search::{OperatingPoint, Operation};
 use ulna::control::compensation::{Compensation, FreeTorque};
@@ -85,16 +85,17 @@ impl<const N: usize> Plan<N> {
                     wrench: here.wrench + (next.wrench - here.wrench) * share,
                 }
             }
-            _ => self.samples.last().copied().unwrap_or(FreeTorque {
-                torque: SVector::zeros(),
-                wrench: Vector6::zeros(),
-            }),
+            _ => self
+                .samples
+                .last()
+                .copied()
+                .unwrap_or_else(FreeTorque::none),
         }
     }
 
     /// U before the lock at an operating point, N·m (N).
     pub fn before(&self, point: &OperatingPoint<N>) -> SVector<f64, N> {
-        torque(point, &self.at(point.time))
+        point.compensation(&self.at(point.time))
     }
 
     /// What follows the lock of an operation, number `lock` of the grid at its time number `time`: what leaves less of the step.
@@ -118,12 +119,4 @@ impl<const N: usize> Plan<N> {
         let share = (since / self.ramp).clamp(0.0, 1.0);
         1.0 - share * share * (3.0 - 2.0 * share)
     }
-}
-
-/// `P z + Jᵀ f`, N·m (N).
-pub(super) fn torque<const N: usize>(
-    point: &OperatingPoint<N>,
-    free: &FreeTorque<N>,
-) -> SVector<f64, N> {
-    point.pose.project(&free.torque) + point.pose.static_torque(&free.wrench)
 }

@@ -168,15 +168,11 @@ impl<'a, T: Trajectory<N>, const N: usize> Trial<'a, T, N> {
 ///
 /// What a controller can do that does not prepare for a lock.
 pub fn after_only<const N: usize>(operation: &Operation<N>) -> Compensation<N> {
-    let nothing = FreeTorque {
-        torque: SVector::zeros(),
-        wrench: Vector6::zeros(),
-    };
     Compensation::Optimal {
-        before: nothing,
+        before: FreeTorque::none(),
         after: FreeTorque {
             torque: -operation.step(),
-            ..nothing
+            ..FreeTorque::none()
         },
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::{SVector, Vector6};
 use super::convex::ROUNDING;
 use super::{Field, OperationOptions, Scope, SearchError, WorseJoint, worse_joints};
 use ulna::Arm;
-use ulna::control::compensation::{Compensation, Law, Limits, TaskPose};
+use ulna::control::compensation::{Compensation, FreeTorque, Law, Limits, TaskPose};
 use ulna::control::failure::{Failure, LockedJoints};
 use ulna::control::trajectory::Trajectory;
 
@@ -20,6 +20,13 @@ pub struct OperatingPoint<const N: usize> {
     pub planned: SVector<f64, N>,
     /// What a compensation is made of there.
     pub pose: TaskPose<N>,
+}
+
+impl<const N: usize> OperatingPoint<N> {
+    /// U of a free torque here, `P z + Jᵀ f`, N·m (N), with the projector of the pose.
+    pub fn compensation(&self, free: &FreeTorque<N>) -> SVector<f64, N> {
+        self.pose.project(&free.torque) + self.pose.static_torque(&free.wrench)
+    }
 }
 
 /// A planned motion under a tool wrench, with joints that lock on the way: the whole of what a search looks at.

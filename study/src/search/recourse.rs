@@ -85,8 +85,7 @@ impl<const N: usize> Operation<N> {
             };
             limits.cut(&point.planned, wanted, Law::Optimal).0
         };
-        let pose = &self.after().pose;
-        let wanted = pose.project(&after.torque) + pose.static_torque(&after.wrench);
+        let wanted = self.after().compensation(after);
         let step = torque(self.after(), &wanted) - torque(self.before(), before);
         self.failure().joints.without(&step).norm()
     }

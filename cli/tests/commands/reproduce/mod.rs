@@ -13,22 +13,15 @@ use assert_cmd::assert::Assert;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::ulna;
+use crate::support::{edited_scenario, ulna};
 
 /// A folder with `quick.toml`: the paper-like scenario with long control cycles and one failure time, and `edits`.
 fn quick_scenario(edits: &[(&str, &str)]) -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let mut text = include_str!("../../../../scenarios/paper_like.toml").to_owned();
     let quick = [
         ("cycle = 0.01", "cycle = 0.2"),
         ("times = [3.0, 10.0, 18.0]", "times = [10.0]"),
     ];
-    for (from, to) in quick.iter().chain(edits) {
-        assert!(text.contains(from), "the scenario has no {from:?}");
-        text = text.replacen(from, to, 1);
-    }
-    fs::write(folder.path().join("quick.toml"), text).unwrap();
-    folder
+    edited_scenario("quick.toml", quick.iter().chain(edits))
 }
 
 /// A folder with `quick.toml` about an arm of two joints, and that arm's table.

@@ -51,9 +51,7 @@ pub fn best_constant<const N: usize>(
                 map.row_mut(joint).fill(0.0);
             }
             size = size.sup(&column_sizes(&map));
-            let step = after
-                .locked
-                .without(&(after.planned - moment.before.planned));
+            let step = moment.step(after);
             locks.push((after.locked, map, step));
         }
     }

@@ -32,6 +32,13 @@ pub struct Moment<const N: usize> {
     pub after: Vec<OperatingPoint<N>>,
 }
 
+impl<const N: usize> Moment<N> {
+    /// What a lock, one of [`after`](Self::after), makes the healthy joints' torques step by without compensation, N·m (N).
+    pub fn step(&self, after: &OperatingPoint<N>) -> SVector<f64, N> {
+        after.locked.without(&(after.planned - self.before.planned))
+    }
+}
+
 /// What is to be small.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RobustObjective {
@@ -212,9 +219,7 @@ impl<const N: usize> RobustPlan<N> {
         let mut beyond = Vec::new();
         for (i, (sample, moment)) in self.samples.iter().zip(moments).enumerate() {
             for (lock, (point, free)) in moment.after.iter().zip(&sample.after).enumerate() {
-                let torque = point.planned
-                    + point.pose.project(&free.torque)
-                    + point.pose.static_torque(&free.wrench);
+                let torque = point.planned + point.compensation(free);
                 let exceeds = |joint: usize| {
                     let rated = options.rated_torque[joint];
                     torque[joint].abs() > rated * (1.0 + EXCEEDED)
