@@ -1,0 +1,140 @@
+//! Every arm of `arms/`, by the textbook and generated, against numbers made outside: Pinocchio's, and mpmath's to 40 digits
+//! (the scripts beside this file). A module for each family of quantities, whose numbers stand in `data/<arm>.<family>.jsonl`.
+//!
+//! `cargo test --test oracle -- --nocapture` prints the largest errors.
+
+mod dynamics;
+mod manipulability;
+
+use nalgebra::{SMatrix, SVector};
+use serde::Deserialize;
+use ulna::SerialChain;
+use ulna::proof::State;
+use ulna_table::Model;
+
+fn read<Line: for<'a> Deserialize<'a>>(file: &str) -> Vec<Line> {
+    let path = format!("{}/oracle/data/{file}", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let lines: Vec<Line> = text
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap_or_else(|error| panic!("{path}: {error}")))
+        .collect();
+    assert_eq!(lines.len(), 100, "{path}");
+    lines
+}
+
+fn chain<const N: usize>(name: &str) -> SerialChain<N> {
+    let path = format!("{}/../arms/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let model = Model::load(path).unwrap_or_else(|errors| panic!("{errors}"));
+    SerialChain::try_from(&model).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The largest errors seen, by quantity.
+#[derive(Default)]
+struct Errors(Vec<(&'static str, f64)>);
+
+impl Errors {
+    /// The largest difference, relative to the largest expected entry (to 1 where all of them are 0).
+    fn record(
+        &mut self,
+        quantity: &'static str,
+        actual: impl IntoIterator<Item = f64>,
+        expected: &[f64],
+    ) {
+        let actual: Vec<f64> = actual.into_iter().collect();
+        assert_eq!(actual.len(), expected.len(), "{quantity}");
+        let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
+        let difference = actual.iter().zip(expected).fold(0.0_f64, |max, (a, e)| {
+            assert!(!a.is_nan(), "{quantity} is NaN");
+            max.max((a - e).abs())
+        });
+        let error = if scale == 0.0 {
+            difference
+        } else {
+            difference / scale
+        };
+        match self.0.iter_mut().find(|(name, _)| *name == quantity) {
+            Some((_, largest)) => *largest = largest.max(error),
+            None => self.0.push((quantity, error)),
+        }
+    }
+
+    #[track_caller]
+    fn check(&self, arm: &str, tolerance: f64) {
+        for (quantity, error) in &self.0 {
+            println!("{arm:28} {quantity:18} {error:8.1e}");
+        }
+        for (quantity, error) in &self.0 {
+            assert!(
+                *error <= tolerance,
+                "{arm}: {quantity} is off by {error:.1e}"
+            );
+        }
+    }
+}
+
+fn row_by_row<const R: usize, const C: usize>(matrix: &SMatrix<f64, R, C>) -> Vec<f64> {
+    matrix.transpose().iter().copied().collect()
+}
+
+fn upper_triangle<const N: usize>(matrix: &SMatrix<f64, N, N>) -> Vec<f64> {
+    let entries = (0..N).flat_map(|r| (r..N).map(move |c| (r, c)));
+    entries.map(|entry| matrix[entry]).collect()
+}
+
+/// The arguments at which every family's numbers were made: a line of `data/<arm>.jsonl`.
+#[derive(Deserialize)]
+struct Arguments {
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    qdd: Vec<f64>,
+    tau: Vec<f64>,
+}
+
+/// The arguments, as vectors.
+fn states<const N: usize>(name: &str) -> Vec<State<N>> {
+    let lines = read::<Arguments>(&format!("{name}.jsonl"));
+    let vector = |numbers: &[f64]| SVector::from_column_slice(numbers);
+    lines
+        .iter()
+        .map(|line| State {
+            q: vector(&line.q),
+            qd: vector(&line.qd),
+            qdd: vector(&line.qdd),
+            tau: vector(&line.tau),
+        })
+        .collect()
+}
+
+macro_rules! backends {
+    ($(($Type:ident, $name:ident, $n:literal))*) => {
+        mod generic {
+            $(mod $name {
+                crate::both!("generic", stringify!($name), crate::chain::<$n>(stringify!($name)));
+            })*
+        }
+
+        mod generated {
+            $(mod $name {
+                crate::both!("generated", stringify!($name), ulna_generated::$Type);
+            })*
+        }
+    };
+}
+
+macro_rules! both {
+    ($backend:literal, $name:expr, $arm:expr) => {
+        #[test]
+        fn dynamics() {
+            crate::dynamics::agrees($backend, $name, &$arm);
+        }
+
+        #[test]
+        fn manipulability() {
+            crate::manipulability::agrees($backend, $name, &$arm);
+        }
+    };
+}
+use both;
+
+ulna_generated::for_each_arm!(backends);
