@@ -43,6 +43,7 @@ mod graph;
 #[doc(hidden)]
 pub mod internal;
 mod interpret;
+mod label;
 mod op;
 mod schedule;
 mod sines;
@@ -57,6 +58,7 @@ pub use double_double::DoubleDouble;
 pub use emit::Generated;
 pub use graph::{AngleSum, Input};
 pub use interpret::Interpreter;
+pub use label::Label;
 pub use op::Op;
 pub use schedule::{Operand, Output, Program, Size, Step};
 

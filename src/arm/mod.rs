@@ -5,6 +5,7 @@ mod angle;
 pub mod bounds;
 pub(crate) mod coordinates;
 mod description;
+mod documentation;
 pub(crate) mod methods;
 pub(crate) mod quantity;
 pub mod singular;

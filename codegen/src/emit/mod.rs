@@ -1,8 +1,10 @@
 //! Programs as Rust: the only place that knows the language's syntax.
 
 mod chain;
+mod documentation;
 mod expression;
 mod kernel;
+mod layout;
 mod literal;
 mod parts;
 
@@ -51,7 +53,10 @@ impl Generated {
     /// The code as a formatted file with a header that says where it comes from.
     pub fn source(&self) -> String {
         match syn::parse2(self.tokens.clone()) {
-            Ok(file) => format!("{}\n{}", self.header, prettyplease::unparse(&file)),
+            Ok(file) => {
+                let code = layout::laid_out(&prettyplease::unparse(&file));
+                format!("{}\n{code}", self.header)
+            }
             // What the emitter wrote would then not compile either; the compiler's message is the better one.
             Err(_) => format!("{}\n{}\n", self.header, self.tokens),
         }

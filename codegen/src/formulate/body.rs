@@ -76,6 +76,15 @@ impl<'g> Body<'g> {
         at_centroid.shift(Vec3::constant(graph, link.com))
     }
 
+    /// The same body: its first moment called `mcx`, `mcy`, `mcz`, and its inertia `ixx`, `iyy`, ..., each with `suffix`.
+    pub fn labelled(self, family: &'static str, suffix: &str) -> Self {
+        self.moment
+            .labelled(family, |axis| format!("mc{axis}{suffix}"));
+        self.inertia
+            .labelled(family, |axes| format!("i{axes}{suffix}"));
+        self
+    }
+
     /// Every parameter times `factor`.
     fn scale(self, factor: Expr<'g>) -> Self {
         Self {

@@ -18,6 +18,16 @@ pub(crate) struct Momentum<'g> {
     pub angular: Vec3<'g>,
 }
 
+impl<'g> Momentum<'g> {
+    /// What of it a joint along z feels.
+    fn along(&self, kind: JointKind) -> Expr<'g> {
+        match kind {
+            JointKind::Revolute => self.angular.0[2],
+            JointKind::Prismatic => self.linear.0[2],
+        }
+    }
+}
+
 /// What the inward sweep knows at a joint: about the joint's origin, in its group's axes.
 #[derive(Clone, Debug)]
 pub(crate) struct Station<'g> {
@@ -41,16 +51,21 @@ pub(crate) fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
             };
             let mut momenta = vec![unit_momentum(joint.kind, &composite)];
             momenta.extend(passed);
+            name(i, joint.kind, &own, &composite, &momenta);
             stations.push(Station {
                 composite,
                 momenta: momenta.clone(),
             });
             let mut turned = composite;
             if i == group.joints.start {
-                turned = turned.turn_z(group.turn).turn_x(group.alpha);
-                for momentum in &mut momenta {
-                    momentum.linear = group.to_parent(momentum.linear);
-                    momentum.angular = group.to_parent(momentum.angular);
+                turned = turned
+                    .turn_z(group.turn)
+                    .labelled("turned", &format!("_from_{}_z", i + 1))
+                    .turn_x(group.alpha)
+                    .labelled("turned", &format!("_from_{}_zx", i + 1));
+                for (j, momentum) in (i..).zip(&mut momenta) {
+                    momentum.linear = group.to_parent_named(momentum.linear, "p", &[i, j]);
+                    momentum.angular = group.to_parent_named(momentum.angular, "l", &[i, j]);
                 }
             }
             for momentum in &mut momenta {
@@ -63,16 +78,26 @@ pub(crate) fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
     stations
 }
 
+/// Names what the sweep has at joint `i`; M's entries first, which are among the rest.
+fn name(i: usize, kind: JointKind, own: &Body<'_>, composite: &Body<'_>, momenta: &[Momentum<'_>]) {
+    for (j, momentum) in (i..).zip(momenta) {
+        momentum.along(kind).named("m", &[i, j]);
+    }
+    composite.labelled("from", &format!("_from_{}", i + 1));
+    own.labelled("own", &format!("_{}", i + 1));
+    for (j, momentum) in (i..).zip(momenta) {
+        momentum.linear.named("p", &[i, j]);
+        momentum.angular.named("l", &[i, j]);
+    }
+}
+
 /// M by rows; full and symmetric.
 pub fn mass_matrix<'g>(chain: &Chain<'g>) -> Vec<Vec<Expr<'g>>> {
     let zero = chain.graph.constant(0.0);
     let mut matrix = vec![vec![zero; chain.joint_count()]; chain.joint_count()];
     for (i, (joint, station)) in chain.joints.iter().zip(stations(chain)).enumerate() {
         for (j, momentum) in (i..).zip(&station.momenta) {
-            let entry = match joint.kind {
-                JointKind::Revolute => momentum.angular.0[2],
-                JointKind::Prismatic => momentum.linear.0[2],
-            };
+            let entry = momentum.along(joint.kind);
             matrix[i][j] = entry;
             matrix[j][i] = entry;
         }

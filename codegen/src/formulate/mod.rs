@@ -9,13 +9,14 @@ pub(crate) mod chain;
 pub(crate) mod factorization;
 pub(crate) mod inverse_dynamics;
 pub(crate) mod kinematics;
+pub(crate) mod legend;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
 pub(crate) mod task;
 pub(crate) mod vector;
 
-use ulna::Method;
+use ulna::{Method, TaskRow};
 
 use self::chain::Chain;
 use self::inverse_dynamics::inverse_dynamics;
@@ -96,6 +97,12 @@ fn zeros<'g>(chain: &Chain<'g>) -> Vec<Expr<'g>> {
 
 fn forward_kinematics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
     let (axes, origin) = pose(chain);
+    for (j, axis) in axes.iter().enumerate() {
+        for (i, x) in axis.0.iter().enumerate() {
+            x.labelled("pose", || format!("r_{}_{}", i + 1, j + 1));
+        }
+    }
+    origin.labelled("pose", |axis| format!("p_{axis}"));
     let rotation = axes.iter().flat_map(|axis| axis.0).collect();
     vec![
         Output::new("rotation", &[3, 3], rotation),
@@ -112,6 +119,13 @@ fn jacobian<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
 fn derivatives_of_jacobian<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
     let n = chain.joint_count();
     let derivatives = jacobian_derivatives(chain, &jacobian_in_world(chain, choices.world));
+    for (i, twists) in derivatives.iter().enumerate() {
+        for (j, twist) in twists.iter().enumerate() {
+            for (x, row) in twist.components().into_iter().zip(TaskRow::ALL) {
+                x.labelled("dj", || format!("dj_{}_{}_{}", i + 1, row.name(), j + 1));
+            }
+        }
+    }
     let twists = derivatives.iter().flatten();
     let elements = twists.flat_map(|twist| twist.components());
     Output::new("derivatives", &[n, n, 6], elements.collect())
@@ -135,19 +149,38 @@ fn inverse_mass<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
     } else {
         factorization::factor(&mass_matrix(chain))
     };
-    Output::new("inverse", &[n, n], factors.inverse().concat())
+    let inverse = factors.inverse();
+    for (i, row) in inverse.iter().enumerate() {
+        for (j, x) in row.iter().enumerate() {
+            x.named("m_inv", &[i, j]);
+        }
+    }
+    Output::new("inverse", &[n, n], inverse.concat())
+}
+
+/// Names one value for each joint.
+fn named<'g>(values: Vec<Expr<'g>>, family: &'static str) -> Vec<Expr<'g>> {
+    for (i, x) in values.iter().enumerate() {
+        x.named(family, &[i]);
+    }
+    values
 }
 
 fn torque<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Output<Expr<'g>> {
-    let elements = inverse_dynamics(chain, qd, qdd);
+    let elements = named(inverse_dynamics(chain, qd, qdd), "tau");
     Output::new("torque", &[chain.joint_count()], elements)
 }
 
 fn forward_dynamics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
     let bias = inverse_dynamics(chain, &chain.inputs(Input::Qd), &zeros(chain));
-    let driving = chain.inputs(Input::Tau).into_iter().zip(bias);
+    let driving = chain
+        .inputs(Input::Tau)
+        .into_iter()
+        .zip(named(bias, "bias"));
     let driving: Vec<Expr<'g>> = driving.map(|(tau, bias)| tau - bias).collect();
+    let driving = named(driving, "net");
     let elements = factorization::factor(&mass_matrix(chain)).solve(&driving);
+    let elements = named(elements, "qdd");
     vec![Output::new(
         "acceleration",
         &[chain.joint_count()],
