@@ -6,6 +6,7 @@ pub mod bounds;
 pub(crate) mod coordinates;
 mod description;
 pub(crate) mod methods;
+pub(crate) mod payload;
 pub(crate) mod quantity;
 pub mod singular;
 mod task;
@@ -15,6 +16,7 @@ use nalgebra::SVector;
 pub use angle::Angle;
 pub use coordinates::{PLAIN_LIMIT, PRISMATIC_LIMIT};
 pub use description::{Joint, JointKind, Link, Placement};
+pub use payload::{Payload, PayloadError};
 pub use task::{TaskRow, TaskRows};
 
 macro_rules! define_arm {
@@ -51,11 +53,11 @@ macro_rules! define_arm {
     };
     (@method [$($doc:tt)*] $method:ident($($argument:ident),+) -> $output:ty) => {
         $($doc)*
-        fn $method(&self, $($argument: &SVector<f64, N>),+) -> $output;
+        fn $method(&self, $($argument: &$crate::argument_type!([N] $argument)),+) -> $output;
     };
     (@method [$($doc:tt)*] $method:ident($($argument:ident),+) -> $output:ty { |$arm:ident| $default:expr }) => {
         $($doc)*
-        fn $method(&self, $($argument: &SVector<f64, N>),+) -> $output {
+        fn $method(&self, $($argument: &$crate::argument_type!([N] $argument)),+) -> $output {
             let $arm = self;
             $default
         }

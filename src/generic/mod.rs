@@ -13,7 +13,7 @@ mod mass_matrix;
 mod newton_euler;
 mod orthogonal;
 
-use nalgebra::{IsometryMatrix3, SMatrix, SVector};
+use nalgebra::{IsometryMatrix3, SMatrix, SVector, Vector6};
 
 use crate::{Arm, Joint, Placement, TaskRows};
 
@@ -112,5 +112,27 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         tau: &SVector<f64, N>,
     ) -> SVector<f64, N> {
         mass_matrix::factor(self.mass_matrix(q)).solve(&(tau - self.bias_force(q, qd)))
+    }
+
+    fn inverse_dynamics_with_wrench(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+        wrench: &Vector6<f64>,
+    ) -> SVector<f64, N> {
+        // Siciliano 7.3, Eq. 7.42; there the wrench is what the tool exerts.
+        self.inverse_dynamics(q, qd, qdd) - self.geometric_jacobian(q).tr_mul(wrench)
+    }
+
+    fn forward_dynamics_with_wrench(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        tau: &SVector<f64, N>,
+        wrench: &Vector6<f64>,
+    ) -> SVector<f64, N> {
+        let torque_of_wrench = self.geometric_jacobian(q).tr_mul(wrench);
+        self.forward_dynamics(q, qd, &(tau + torque_of_wrench))
     }
 }

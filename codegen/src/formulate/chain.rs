@@ -10,7 +10,7 @@ use std::ops::Range;
 use ulna::{Angle, JointKind, Placement, TaskRows};
 use ulna_table::Model;
 
-use super::body::{Body, base_parameters};
+use super::body::{Body, base_parameters, links};
 use super::vector::{Turn, Vec3, quarter_turns};
 use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Input};
@@ -76,7 +76,8 @@ pub struct Chain<'g> {
 impl<'g> Chain<'g> {
     /// Lays the model out on the graph.
     pub fn new(graph: &'g Graph, model: &Model) -> Self {
-        let bodies = base_parameters(graph, model);
+        let links = links(graph, model);
+        let bodies = base_parameters(graph, model, &links);
         let groups: Vec<Group<'g>> = parallel_runs(model)
             .into_iter()
             .map(|joints| Group {
@@ -93,21 +94,20 @@ impl<'g> Chain<'g> {
                 offset: offset(graph, model, group, i),
                 group_from_own: sum_of_angles(graph, model, i + 1..group.joints.end).inverse(),
                 body: bodies[i],
-                link: Body::of_link(graph, &model.joints()[i].link),
+                link: links[i],
             })
             .collect();
-        let world_from_base = model.base().rotation;
-        Self {
+        let mut chain = Self {
             graph,
             joints,
             groups,
             base: *model.base(),
             tool: *model.tool(),
-            gravity: Vec3::constant(graph, model.gravity()).rotate(std::array::from_fn(|j| {
-                std::array::from_fn(|i| world_from_base[i][j])
-            })),
+            gravity: Vec3::constant(graph, model.gravity()),
             task: model.task(),
-        }
+        };
+        chain.gravity = chain.of_world(chain.gravity);
+        chain
     }
 
     /// How many joints there are.
@@ -122,6 +122,14 @@ impl<'g> Chain<'g> {
             .iter()
             .position(is_in)
             .unwrap_or(self.groups.len())
+    }
+
+    /// A vector of world axes, in base axes.
+    pub fn of_world(&self, v: Vec3<'g>) -> Vec3<'g> {
+        let world_from_base = self.base.rotation;
+        v.rotate(std::array::from_fn(|j| {
+            std::array::from_fn(|i| world_from_base[i][j])
+        }))
     }
 
     /// The zero vector.

@@ -18,7 +18,9 @@ pub(crate) mod vector;
 use ulna::Method;
 
 use self::chain::Chain;
-use self::inverse_dynamics::inverse_dynamics;
+use self::inverse_dynamics::{
+    Wrench, inverse_dynamics, inverse_dynamics_with_load, load_of_wrench,
+};
 use self::kinematics::{jacobian_derivatives, jacobian_in_world, pose};
 use self::mass_matrix::mass_matrix;
 use self::mass_matrix_derivatives::mass_matrix_derivatives;
@@ -80,7 +82,13 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
         }
         Method::BiasForce => vec![torque(chain, &chain.inputs(Input::Qd), &zeros(chain))],
         Method::GravityTorque => vec![torque(chain, &zeros(chain), &zeros(chain))],
-        Method::ForwardDynamics => forward_dynamics(chain),
+        Method::ForwardDynamics => forward_dynamics(chain, unloaded(chain)),
+        Method::InverseDynamicsWithWrench => {
+            let (qd, qdd) = (chain.inputs(Input::Qd), chain.inputs(Input::Qdd));
+            let torque = inverse_dynamics_with_load(chain, &qd, &qdd, load_of_wrench(chain));
+            vec![Output::new("torque", &[chain.joint_count()], torque)]
+        }
+        Method::ForwardDynamicsWithWrench => forward_dynamics(chain, load_of_wrench(chain)),
         Method::MassMatrixAndDerivatives => vec![mass(chain), derivatives_of_mass(chain)],
         Method::JacobianAndGradient => {
             let mut outputs = vec![jacobian(chain, choices)];
@@ -143,8 +151,13 @@ fn torque<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Output<Ex
     Output::new("torque", &[chain.joint_count()], elements)
 }
 
-fn forward_dynamics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
-    let bias = inverse_dynamics(chain, &chain.inputs(Input::Qd), &zeros(chain));
+fn unloaded<'g>(chain: &Chain<'g>) -> Wrench<'g> {
+    (chain.zero(), chain.zero())
+}
+
+fn forward_dynamics<'g>(chain: &Chain<'g>, load: Wrench<'g>) -> Outputs<'g> {
+    let qd = chain.inputs(Input::Qd);
+    let bias = inverse_dynamics_with_load(chain, &qd, &zeros(chain), load);
     let driving = chain.inputs(Input::Tau).into_iter().zip(bias);
     let driving: Vec<Expr<'g>> = driving.map(|(tau, bias)| tau - bias).collect();
     let elements = factorization::factor(&mass_matrix(chain)).solve(&driving);

@@ -74,6 +74,7 @@ impl ArmTable {
             task: task?,
             base: base?,
             tool,
+            payload: self.payload,
             joints,
             table_hash: String::new(),
         })

@@ -32,6 +32,9 @@ impl fmt::Display for Written<'_> {
             writeln!(text, "xyz = {}", Numbers(placement.translation))?;
             writeln!(text, "rotation = [{x}, {y}, {z}]")?;
         }
+        if arm.payload {
+            writeln!(text, "\n[payload]\nruntime = true")?;
+        }
         arm.joints
             .iter()
             .try_for_each(|joint| write_joint(text, joint))
