@@ -117,7 +117,7 @@ macro_rules! backends {
 
         mod generated {
             $(mod $name {
-                crate::both!("generated", stringify!($name), ulna_generated::$Type);
+                crate::both!("generated", stringify!($name), ulna_generated::$Type::default());
             })*
         }
     };
