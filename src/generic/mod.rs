@@ -6,6 +6,7 @@
 //! and the paper on joint impact torque, Eq. 15 and 22–27, for w_D and its gradient.
 
 mod finite_difference;
+mod friction;
 mod kinematics;
 pub mod literal;
 mod manipulability;

@@ -73,6 +73,7 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
     let joints = model.joints().len();
     let summary = format!(" The arm `{}`: {joints} joints, unrolled.", model.name());
     let chain = chain::chain(model);
+    let joint_names = chain::joint_names(model);
     let n = Literal::usize_unsuffixed(joints);
     let kernels = compiled
         .methods
@@ -87,6 +88,7 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
         #[rustfmt::skip]
         impl #name {
             #chain
+            #joint_names
         }
 
         #[rustfmt::skip]
