@@ -3,7 +3,10 @@
 use ulna::internal::Quantity;
 use ulna::nalgebra::SVector;
 use ulna::proof::{State, compare, differences, states};
-use ulna::{Angle, Arm, Joint, JointKind, Link, Method, Placement, SerialChain, TaskRow, TaskRows};
+use ulna::{
+    Angle, Arm, Friction, Joint, JointKind, Limits, Link, Method, Motor, Placement, SerialChain,
+    TaskRow, TaskRows,
+};
 use ulna_generated::{Planar2r, Ssrms};
 
 const fn joint(kind: JointKind, a: f64) -> Joint {
@@ -14,6 +17,9 @@ const fn joint(kind: JointKind, a: f64) -> Joint {
         theta: Angle::from_radians(-0.2),
         d: 0.4,
         rated_torque: Some(10.0),
+        limits: Limits::NONE,
+        motor: Motor::NONE,
+        friction: Friction::NONE,
         link: Link {
             mass: 2.0,
             com: [0.1, 0.2, -0.3],

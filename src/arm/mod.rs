@@ -5,6 +5,7 @@ mod angle;
 pub mod bounds;
 pub(crate) mod coordinates;
 mod description;
+mod drive;
 pub(crate) mod methods;
 pub(crate) mod payload;
 pub(crate) mod quantity;
@@ -16,6 +17,7 @@ use nalgebra::SVector;
 pub use angle::Angle;
 pub use coordinates::{PLAIN_LIMIT, PRISMATIC_LIMIT};
 pub use description::{Joint, JointKind, Link, Placement};
+pub use drive::{Friction, Limits, Motor};
 pub use payload::{Payload, PayloadError};
 pub use task::{TaskRow, TaskRows};
 

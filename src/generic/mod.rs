@@ -6,6 +6,7 @@
 //! and the paper on joint impact torque, Eq. 15 and 22–27, for w_D and its gradient.
 
 mod finite_difference;
+mod friction;
 mod kinematics;
 pub mod literal;
 mod manipulability;
@@ -69,7 +70,9 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
     }
 
     fn mass_matrix_derivatives(&self, q: &SVector<f64, N>) -> [SMatrix<f64, N, N>; N] {
-        self.derivatives(&self.inputs(q), |shifted| self.mass_matrix_at(shifted))
+        self.derivatives(&self.inputs(q), |shifted| {
+            self.links_mass_matrix_at(shifted)
+        })
     }
 
     fn inverse_mass_matrix(&self, q: &SVector<f64, N>) -> SMatrix<f64, N, N> {
@@ -94,7 +97,10 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         qdd: &SVector<f64, N>,
     ) -> SVector<f64, N> {
         let loads = self.joint_loads(q, qd, qdd);
-        SVector::from_fn(|i, _| loads[i].along_axis(self.joints[i].kind))
+        SVector::from_fn(|i, _| {
+            let joint = &self.joints[i];
+            loads[i].along_axis(joint.kind) + joint.motor.reflected_inertia() * qdd[i]
+        })
     }
 
     fn bias_force(&self, q: &SVector<f64, N>, qd: &SVector<f64, N>) -> SVector<f64, N> {

@@ -86,8 +86,8 @@ impl<'a, const N: usize> Judge<'a, N> {
     ) -> Verdict {
         let error = |i: usize| {
             let sizes = match self.chain.joints[i].kind {
-                JointKind::Revolute => &self.scale.inertia,
-                JointKind::Prismatic => &self.scale.inertia_ahead,
+                JointKind::Revolute => &self.scale.links,
+                JointKind::Prismatic => &self.scale.links_ahead,
             };
             let change = (found[i] - self.mass_derivatives[i]) * self.unit(i);
             Scale::masses(sizes, &change)

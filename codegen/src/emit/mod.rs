@@ -74,6 +74,7 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
     let joints = model.joints().len();
     let summary = format!(" The arm `{}`: {joints} joints, unrolled.", model.name());
     let chain = chain::chain(model);
+    let joint_names = chain::joint_names(model);
     let n = Literal::usize_unsuffixed(joints);
     let kernels = compiled
         .methods
@@ -102,6 +103,7 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
         impl #name {
             #chain
             #methods
+            #joint_names
         }
 
         #[rustfmt::skip]

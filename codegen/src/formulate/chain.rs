@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use ulna::{Angle, JointKind, Placement, TaskRows};
+use ulna::{Angle, JointKind, Motor, Placement, TaskRows};
 use ulna_table::Model;
 
 use super::body::{Body, base_parameters, links};
@@ -29,6 +29,8 @@ pub struct ChainJoint<'g> {
     pub body: Body<'g>,
     /// The same as the table has them.
     pub link: Body<'g>,
+    /// What the joint's rotor adds to its entry of M, as far as the link has it not among its constants.
+    pub reflected: Expr<'g>,
 }
 
 /// Joints about parallel axes.
@@ -76,8 +78,9 @@ pub struct Chain<'g> {
 impl<'g> Chain<'g> {
     /// Lays the model out on the graph.
     pub fn new(graph: &'g Graph, model: &Model) -> Self {
-        let links = links(graph, model);
-        let bodies = base_parameters(graph, model, &links);
+        let mut links = links(graph, model);
+        let mut bodies = base_parameters(graph, model, &links);
+        let rotors = rotors(graph, model, [&mut bodies, &mut links]);
         let groups: Vec<Group<'g>> = parallel_runs(model)
             .into_iter()
             .map(|joints| Group {
@@ -95,6 +98,7 @@ impl<'g> Chain<'g> {
                 group_from_own: sum_of_angles(graph, model, i + 1..group.joints.end).inverse(),
                 body: bodies[i],
                 link: links[i],
+                reflected: rotors[i],
             })
             .collect();
         let mut chain = Self {
@@ -148,6 +152,34 @@ impl<'g> Chain<'g> {
             .map(|i| self.graph.input(input(i)))
             .collect()
     }
+}
+
+/// What the rotors add to M's diagonal.
+///
+/// The first link of an arm turns about one axis only, that of its rotor's gears: a rotor there is one with the link, and costs nothing.
+fn rotors<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    constants: [&mut Vec<Body<'g>>; 2],
+) -> Vec<Expr<'g>> {
+    let joints = model.joints().iter();
+    let mut rotors: Vec<Expr<'g>> = joints
+        .map(|joint| reflected_inertia(graph, &joint.motor))
+        .collect();
+    if model.joints()[0].kind == JointKind::Revolute {
+        for bodies in constants {
+            let inertia = &mut bodies[0].inertia.0[2];
+            *inertia = *inertia + rotors[0];
+        }
+        rotors[0] = graph.constant(0.0);
+    }
+    rotors
+}
+
+/// `inertia · ratio²`, rounded once.
+fn reflected_inertia<'g>(graph: &'g Graph, motor: &Motor) -> Expr<'g> {
+    let ratio = graph.constant(motor.ratio);
+    graph.constant(motor.inertia) * ratio * ratio
 }
 
 /// Maximal runs of joints about parallel axes.

@@ -49,7 +49,7 @@ fn times<'g>(rows: &[Vec3<'g>; 3], v: Vec3<'g>) -> Vec3<'g> {
 /// Force and moment.
 pub(crate) type Wrench<'g> = (Vec3<'g>, Vec3<'g>);
 
-/// τ for velocities `qd` and accelerations `qdd`; zeros fold, so that gravity alone or bias alone costs what it needs.
+/// τ for velocities `qd` and accelerations `qdd`, without friction; zeros fold, so that gravity alone or bias alone costs what it needs.
 pub(crate) fn inverse_dynamics<'g>(
     chain: &Chain<'g>,
     qd: &[Expr<'g>],
@@ -75,10 +75,11 @@ pub(crate) fn inverse_dynamics_with_load<'g>(
             let (own_force, own_moment) = wrench(&body, &motions[i]);
             force = force + own_force;
             moment = moment + own_moment;
-            torques[i] = match joint.kind {
+            let along = match joint.kind {
                 JointKind::Revolute => moment.0[2],
                 JointKind::Prismatic => force.0[2],
             };
+            torques[i] = along + joint.reflected * qdd[i];
             if i == group.joints.start {
                 force = group.to_parent(force);
                 moment = group.to_parent(moment);

@@ -63,7 +63,7 @@ pub(crate) fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
     stations
 }
 
-/// M by rows; full and symmetric.
+/// M by rows; full and symmetric. Rotors behind rigid gears add to its diagonal.
 pub fn mass_matrix<'g>(chain: &Chain<'g>) -> Vec<Vec<Expr<'g>>> {
     let zero = chain.graph.constant(0.0);
     let mut matrix = vec![vec![zero; chain.joint_count()]; chain.joint_count()];
@@ -72,6 +72,11 @@ pub fn mass_matrix<'g>(chain: &Chain<'g>) -> Vec<Vec<Expr<'g>>> {
             let entry = match joint.kind {
                 JointKind::Revolute => momentum.angular.0[2],
                 JointKind::Prismatic => momentum.linear.0[2],
+            };
+            let entry = if i == j {
+                entry + joint.reflected
+            } else {
+                entry
             };
             matrix[i][j] = entry;
             matrix[j][i] = entry;

@@ -2,14 +2,18 @@
 
 mod bounds;
 mod described;
+mod drive;
 mod joint;
 mod words;
 
 pub use bounds::RATED_TORQUE;
 pub(crate) use described::{DESCRIBED_BASE, DESCRIBED_TOOL, DESCRIPTION, ROTATION};
+pub(crate) use drive::{
+    COULOMB, FRICTION, LIMITS, LOWER, MOTOR, RATIO, ROTOR, SMOOTHING, UPPER, VELOCITY, VISCOUS,
+};
 pub(crate) use joint::{
-    A, ALPHA, COM, D, DEFAULT_KIND, INERTIA, JOINT, KIND, LINK, MASS, RATED, THETA, XX, XY, XZ, YY,
-    YZ, ZZ,
+    A, ALPHA, COM, D, DEFAULT_KIND, INERTIA, JOINT, JOINT_NAME, KIND, LINK, MASS, RATED, THETA, XX,
+    XY, XZ, YY, YZ, ZZ,
 };
 
 use crate::table::{AngleUnit, ArmTable, Convention, RowSet};

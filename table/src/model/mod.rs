@@ -7,6 +7,8 @@
 mod angle;
 mod convention;
 mod description;
+mod drive;
+mod joint_names;
 mod light;
 mod name;
 mod placement;
@@ -14,6 +16,7 @@ mod validate;
 mod written;
 
 pub use description::Description;
+pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
 
 use std::path::Path;
 
@@ -36,6 +39,7 @@ pub struct Model {
     tool: Placement,
     payload: bool,
     joints: Vec<Joint>,
+    joint_names: Vec<String>,
     table_hash: String,
 }
 
@@ -157,6 +161,11 @@ impl Model {
     /// The joints, base first, 1 to 32, in modified form.
     pub fn joints(&self) -> &[Joint] {
         &self.joints
+    }
+
+    /// What the joints are called, base first: by their names, or `joint 1` where the table gives none. No two are the same.
+    pub fn joint_names(&self) -> &[String] {
+        &self.joint_names
     }
 
     /// SHA-256 of the table's text, hexadecimal; for a model made by a program, of the text that [`Model::new`] writes.

@@ -200,6 +200,11 @@ impl<'t> Value<'t> {
         read.collect::<Vec<_>>().into_iter().collect()
     }
 
+    /// What a table has under `key`, if that is a string; nothing is reported.
+    pub fn word_of(&self, key: &Key) -> Option<&'t str> {
+        self.value.get(key.name)?.get_ref().as_str()
+    }
+
     /// Whether the value is a string.
     pub fn is_string(&self) -> bool {
         self.value.is_str()
