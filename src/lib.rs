@@ -1,7 +1,7 @@
 //! Dynamics of a robot arm, generated from its table or computed by the textbook, and a controller for arms whose joints lock.
 //!
 //! ```
-//! use ulna::{Angle, Arm, Joint, JointKind, Link, Placement, SerialChain, TaskRow, TaskRows};
+//! use ulna::{Angle, Arm, Friction, Joint, JointKind, Limits, Link, Motor, Placement, SerialChain, TaskRow, TaskRows};
 //! use ulna::nalgebra::Vector2;
 //!
 //! // An arm as data, for the textbook. `ulna-codegen` and `ulna-macros` make a type with the same methods of a table.
@@ -12,6 +12,9 @@
 //!     theta: Angle::default(),
 //!     d: 0.0,
 //!     rated_torque: None,
+//!     limits: Limits::NONE,
+//!     motor: Motor::NONE,
+//!     friction: Friction::NONE,
 //!     link: Link {
 //!         mass: 1.0,
 //!         com: [0.5, 0.0, 0.0],
@@ -66,8 +69,12 @@ pub mod internal;
 mod kernels;
 pub mod proof;
 
+pub use arm::method_set::MethodSet;
 pub use arm::methods::{Argument, Method};
-pub use arm::{Angle, Arm, Joint, JointKind, Link, Placement, TaskRow, TaskRows};
+pub use arm::{
+    Angle, Arm, Friction, Joint, JointKind, Limits, Link, Motor, Payload, PayloadError, Placement,
+    TaskRow, TaskRows,
+};
 pub use control::compensation::{
     Compensation, Controller, Cycle, Law, OnLine, Projector, Status, Weighting,
 };

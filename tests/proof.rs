@@ -3,7 +3,10 @@
 use ulna::internal::Quantity;
 use ulna::nalgebra::SVector;
 use ulna::proof::{State, compare, differences, states};
-use ulna::{Angle, Arm, Joint, JointKind, Link, Method, Placement, SerialChain, TaskRow, TaskRows};
+use ulna::{
+    Angle, Arm, Friction, Joint, JointKind, Limits, Link, Method, Motor, Placement, SerialChain,
+    TaskRow, TaskRows,
+};
 use ulna_generated::{Planar2r, Ssrms};
 
 const fn joint(kind: JointKind, a: f64) -> Joint {
@@ -14,6 +17,9 @@ const fn joint(kind: JointKind, a: f64) -> Joint {
         theta: Angle::from_radians(-0.2),
         d: 0.4,
         rated_torque: Some(10.0),
+        limits: Limits::NONE,
+        motor: Motor::NONE,
+        friction: Friction::NONE,
         link: Link {
             mass: 2.0,
             com: [0.1, 0.2, -0.3],
@@ -72,7 +78,7 @@ macro_rules! define_off {
             }
 
             $(
-                fn $method(&self, $($argument: &SVector<f64, 3>),+) -> $output {
+                fn $method(&self, $($argument: &ulna::argument_type!([3] $argument)),+) -> $output {
                     let mut result = CHAIN.$method($($argument),+);
                     let last = result.part_mut(<$output>::PARTS - 1);
                     last.iter_mut().for_each(|x| *x *= self.factor(stringify!($method)));
@@ -98,7 +104,7 @@ macro_rules! generated {
             #[test]
             fn $name() {
                 let chain = ulna_generated::$Type::CHAIN;
-                let report = compare(&ulna_generated::$Type, &chain, states(&chain).take(25));
+                let report = compare(&ulna_generated::$Type::default(), &chain, states(&chain).take(25));
                 println!("{}\n{report}", stringify!($name));
                 assert!(report.passes(), "{report}");
             }

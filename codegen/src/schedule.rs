@@ -26,7 +26,7 @@ pub enum Size {
 }
 
 /// Named results of a formulation, of some shape, in row-major order of the shape.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Output<T> {
     /// What it is called in the generated code.
     pub name: &'static str,
@@ -90,7 +90,7 @@ pub struct Step {
 }
 
 /// A straight-line program.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Program {
     /// The angles whose sines and cosines it takes.
     pub angles: Vec<AngleSum>,

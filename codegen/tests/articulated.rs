@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ulna::{JointKind, Method};
-use ulna_codegen::internal::{Chain, Choices, Graph, Scalar, formulate, schedule};
+use ulna_codegen::internal::{Arguments, Chain, Choices, Graph, Scalar, formulate, schedule};
 use ulna_codegen::{DoubleDouble, Program};
 use ulna_table::Model;
 
@@ -19,7 +19,11 @@ fn gradient(model: &Model, articulated: bool) -> Program {
 }
 
 fn run<R: Scalar>(program: &Program, q: &[f64]) -> Vec<f64> {
-    R::run(program, [q, &[], &[], &[]])
+    let arguments = Arguments {
+        q,
+        ..Arguments::default()
+    };
+    R::run(program, arguments)
 }
 
 /// The largest difference, relative to the largest value.

@@ -8,18 +8,26 @@ use crate::{Joint, JointKind};
 /// stay positive while that share is well above the rounding: N + 20 units or so of 1.1e-16.
 pub const LEAST_SHARE: f64 = 1e-13;
 
-/// What a link alone adds to its joint's entry of M: its inertia about the joint's axis, kg·m² (its mass, kg, for a prismatic joint).
+/// What a link alone adds to its joint's entry of M, with the rotor that drives it: its inertia about the joint's axis, kg·m²
+/// (its mass, kg, for a prismatic joint).
 pub fn own_inertia(joint: &Joint) -> f64 {
     let [x, y, _] = joint.link.com;
-    match joint.kind {
+    let link = match joint.kind {
         JointKind::Revolute => joint.link.inertia[2][2] + joint.link.mass * (x * x + y * y),
         JointKind::Prismatic => joint.link.mass,
-    }
+    };
+    link + joint.motor.reflected_inertia()
 }
 
 /// An upper bound of joint `index`'s entry of M, kg·m² (kg), over all angles of the joints beyond it:
-/// the inertias of all links beyond, each at its greatest distance. `travel` is how far a prismatic joint is out, m.
+/// what it [carries](carried_by_links), and its rotor.
 pub fn carried_inertia(joints: &[Joint], index: usize, travel: impl Fn(usize) -> f64) -> f64 {
+    carried_by_links(joints, index, travel) + joints[index].motor.reflected_inertia()
+}
+
+/// The same without the rotor: the inertias of all links beyond, each at its greatest distance.
+/// `travel` is how far a prismatic joint is out, m.
+pub fn carried_by_links(joints: &[Joint], index: usize, travel: impl Fn(usize) -> f64) -> f64 {
     let (mut carried, mut reach) = (0.0, 0.0);
     for (i, joint) in joints.iter().enumerate().skip(index) {
         if i > index {

@@ -5,7 +5,7 @@
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Translation3};
 
-use super::Angle;
+use super::{Angle, Friction, Limits, Motor};
 
 /// How a joint moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +31,12 @@ pub struct Joint {
     pub d: f64,
     /// Rated torque, N·m (N for a prismatic joint), if the table states one.
     pub rated_torque: Option<f64>,
+    /// How far and how fast it may go; [`Limits::NONE`] if the table does not say.
+    pub limits: Limits,
+    /// Its motor's rotor; [`Motor::NONE`] if the table does not say.
+    pub motor: Motor,
+    /// Its friction; [`Friction::NONE`] if the table does not say.
+    pub friction: Friction,
     /// The link that the joint moves.
     pub link: Link,
 }

@@ -29,6 +29,7 @@ impl Argument {
             Self::Qd => "their rates, rad/s (m/s)",
             Self::Qdd => "their accelerations, rad/s² (m/s²)",
             Self::Tau => "joint torques, N·m (N)",
+            Self::Wrench => "wrench on the tool, `[f; n]`, N and N·m",
         }
     }
 }

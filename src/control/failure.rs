@@ -167,7 +167,8 @@ pub struct ImpactTorque<const N: usize> {
     /// `Δf_i` and `Δn_i` with all three components (Eq. 9–11). What [`torque`](Self::torque) does not take of them loads
     /// the structure: of a revolute joint the moments about x and y, and the force.
     pub loads: [JointLoad; N],
-    /// Δτ, what the motors feel (Eq. 12): the moment along z of a revolute joint, N·m, the force along z of a prismatic one, N.
+    /// Δτ, what the motors feel (Eq. 12): the moment along z of a revolute joint, N·m, the force along z of a prismatic one, N;
+    /// and of a joint that locks what has accelerated its rotor.
     pub torque: SVector<f64, N>,
 }
 
@@ -183,7 +184,11 @@ pub fn impact_torque<const N: usize>(
 ) -> ImpactTorque<N> {
     let transforms = chain.link_transforms(&state.q);
     let loads = link_deviations(chain, &transforms, state, locked);
-    joint_deviations(chain, &transforms, &loads, delta_wrench)
+    let mut impact = joint_deviations(chain, &transforms, &loads, delta_wrench);
+    for joint in locked.iter() {
+        impact.torque[joint] += chain.joints[joint].motor.reflected_inertia() * state.qdd[joint];
+    }
+    impact
 }
 
 /// The motors' part of the impact torque (Eq. 12) of any arm, as the difference of two calls of its inverse dynamics

@@ -41,7 +41,7 @@ impl<const N: usize> SerialChain<N> {
         let w: f64 = qr.heights().product();
         let pseudoinverse = qr.duals();
         let dj = self.derivatives(inputs, |shifted| self.tool_jacobian(shifted));
-        let dm = self.derivatives(inputs, |shifted| self.mass_matrix_at(shifted));
+        let dm = self.derivatives(inputs, |shifted| self.links_mass_matrix_at(shifted));
         let gradient = SVector::from_fn(|i, _| {
             // Eq. 27 transposed, with ∂M⁻¹ = −M⁻¹ ∂M M⁻¹.
             let dh_transposed =

@@ -1,14 +1,21 @@
 //! The mass matrix as the links' kinetic energies add up to it, and its factorisation.
 
-use nalgebra::{Cholesky, Const, Matrix3, SMatrix, Vector3};
+use nalgebra::{Cholesky, Const, Matrix3, SMatrix, SVector, Vector3};
 
 use super::SerialChain;
 use super::kinematics::JointInput;
 
 impl<const N: usize> SerialChain<N> {
-    /// `M = Σ_i m_i J_viᵀ J_vi + J_wiᵀ R_i I_i R_iᵀ J_wi` over the links, with the Jacobian at each centroid
-    /// (Siciliano 7.1.1, Eq. 7.32).
+    /// M: that of the links, and on its diagonal what the rotors add: of Siciliano's Eq. 7.32 their spin about their own axes,
+    /// which rigid gears make `ratio · q̇_i`.
     pub(super) fn mass_matrix_at(&self, inputs: &[JointInput; N]) -> SMatrix<f64, N, N> {
+        let rotors = SVector::from_fn(|i, _| self.joints[i].motor.reflected_inertia());
+        self.links_mass_matrix_at(inputs) + SMatrix::from_diagonal(&rotors)
+    }
+
+    /// `M = Σ_i m_i J_viᵀ J_vi + J_wiᵀ R_i I_i R_iᵀ J_wi` over the links, with the Jacobian at each centroid
+    /// (Siciliano 7.1.1, Eq. 7.32). All of M that changes with the configuration.
+    pub(super) fn links_mass_matrix_at(&self, inputs: &[JointInput; N]) -> SMatrix<f64, N, N> {
         let frames = self.frames(inputs);
         let mut mass_matrix = SMatrix::zeros();
         for (i, joint) in self.joints.iter().enumerate() {

@@ -6,6 +6,7 @@
 //! and the paper on joint impact torque, Eq. 15 and 22–27, for w_D and its gradient.
 
 mod finite_difference;
+mod friction;
 mod kinematics;
 pub mod literal;
 mod manipulability;
@@ -13,7 +14,7 @@ mod mass_matrix;
 mod newton_euler;
 mod orthogonal;
 
-use nalgebra::{IsometryMatrix3, SMatrix, SVector};
+use nalgebra::{IsometryMatrix3, SMatrix, SVector, Vector6};
 
 use crate::{Arm, Joint, Placement, TaskRows};
 
@@ -69,7 +70,9 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
     }
 
     fn mass_matrix_derivatives(&self, q: &SVector<f64, N>) -> [SMatrix<f64, N, N>; N] {
-        self.derivatives(&self.inputs(q), |shifted| self.mass_matrix_at(shifted))
+        self.derivatives(&self.inputs(q), |shifted| {
+            self.links_mass_matrix_at(shifted)
+        })
     }
 
     fn inverse_mass_matrix(&self, q: &SVector<f64, N>) -> SMatrix<f64, N, N> {
@@ -94,7 +97,10 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         qdd: &SVector<f64, N>,
     ) -> SVector<f64, N> {
         let loads = self.joint_loads(q, qd, qdd);
-        SVector::from_fn(|i, _| loads[i].along_axis(self.joints[i].kind))
+        SVector::from_fn(|i, _| {
+            let joint = &self.joints[i];
+            loads[i].along_axis(joint.kind) + joint.motor.reflected_inertia() * qdd[i]
+        })
     }
 
     fn bias_force(&self, q: &SVector<f64, N>, qd: &SVector<f64, N>) -> SVector<f64, N> {
@@ -112,5 +118,27 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         tau: &SVector<f64, N>,
     ) -> SVector<f64, N> {
         mass_matrix::factor(self.mass_matrix(q)).solve(&(tau - self.bias_force(q, qd)))
+    }
+
+    fn inverse_dynamics_with_wrench(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+        wrench: &Vector6<f64>,
+    ) -> SVector<f64, N> {
+        // Siciliano 7.3, Eq. 7.42; there the wrench is what the tool exerts.
+        self.inverse_dynamics(q, qd, qdd) - self.geometric_jacobian(q).tr_mul(wrench)
+    }
+
+    fn forward_dynamics_with_wrench(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        tau: &SVector<f64, N>,
+        wrench: &Vector6<f64>,
+    ) -> SVector<f64, N> {
+        let torque_of_wrench = self.geometric_jacobian(q).tr_mul(wrench);
+        self.forward_dynamics(q, qd, &(tau + torque_of_wrench))
     }
 }

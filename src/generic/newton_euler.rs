@@ -15,7 +15,8 @@ pub struct JointLoad {
 }
 
 impl JointLoad {
-    /// What the motor bears: the moment about, or the force along, the joint's axis z.
+    /// What the gears bear: the moment about, or the force along, the joint's axis z. What accelerates the motor's rotor comes on top,
+    /// and friction.
     pub fn along_axis(&self, kind: JointKind) -> f64 {
         match kind {
             JointKind::Revolute => self.moment.z,

@@ -86,8 +86,8 @@ impl<'a, const N: usize> Judge<'a, N> {
     ) -> Verdict {
         let error = |i: usize| {
             let sizes = match self.chain.joints[i].kind {
-                JointKind::Revolute => &self.scale.inertia,
-                JointKind::Prismatic => &self.scale.inertia_ahead,
+                JointKind::Revolute => &self.scale.links,
+                JointKind::Prismatic => &self.scale.links_ahead,
             };
             let change = (found[i] - self.mass_derivatives[i]) * self.unit(i);
             Scale::masses(sizes, &change)
@@ -181,6 +181,43 @@ impl<'a, const N: usize> Judge<'a, N> {
         let needed = self.reference.inverse_dynamics(q, qd, &found);
         let sizes = self.scale.torque(qd, &found) + tau.abs();
         rounded::<N>(Scale::torques(&sizes, &(needed - tau)))
+    }
+
+    pub(super) fn torques_with_wrench(
+        &self,
+        found: Vector<N>,
+        expected: impl FnOnce() -> Vector<N>,
+    ) -> Verdict {
+        let State { qd, qdd, .. } = self.state;
+        let sizes = self.scale.torque(qd, qdd) + self.torques_of_wrench();
+        rounded::<N>(Scale::torques(&sizes, &(found - expected())))
+    }
+
+    /// The error of the torques that the accelerations need.
+    pub(super) fn accelerations_with_wrench(
+        &self,
+        found: Vector<N>,
+        _: impl FnOnce() -> Vector<N>,
+    ) -> Verdict {
+        let State {
+            q, qd, tau, wrench, ..
+        } = self.state;
+        let needed = self
+            .reference
+            .inverse_dynamics_with_wrench(q, qd, &found, wrench);
+        let sizes = self.scale.torque(qd, &found) + tau.abs() + self.torques_of_wrench();
+        rounded::<N>(Scale::torques(&sizes, &(needed - tau)))
+    }
+
+    /// What the terms of each joint's share in the wrench may amount to, N·m (N).
+    fn torques_of_wrench(&self) -> Vector<N> {
+        let wrench = self.state.wrench.abs();
+        let force = wrench.fixed_rows::<3>(0).sum();
+        let moment = wrench.fixed_rows::<3>(3).sum();
+        Vector::from_fn(|joint, _| match self.chain.joints[joint].kind {
+            JointKind::Revolute => moment + force * self.scale.length,
+            JointKind::Prismatic => force,
+        })
     }
 
     fn torques_of(

@@ -13,13 +13,13 @@ mod scale;
 
 use core::f64::consts::PI;
 
-use nalgebra::SVector;
+use nalgebra::{SVector, Vector6};
 
 use judge::Judge;
 pub use report::{Deviation, Report};
 use scale::Scale;
 
-use crate::{Arm, JointKind, SerialChain};
+use crate::{Arm, JointKind, Payload, SerialChain};
 use random::SplitMix64;
 
 /// A configuration of an arm, its motion, and its motors' torques.
@@ -33,10 +33,12 @@ pub struct State<const N: usize> {
     pub qdd: SVector<f64, N>,
     /// Joint torques, N·m (N).
     pub tau: SVector<f64, N>,
+    /// Wrench `[f; n]` on the tool, N and N·m, world axes.
+    pub wrench: Vector6<f64>,
 }
 
 /// Random states of `chain` without end, always the same ones: revolute joints in [−π, π] rad, prismatic ones in [−1, 1] m,
-/// rates, accelerations and torques in [−1, 1].
+/// rates, accelerations, torques and wrenches in [−1, 1].
 ///
 /// The generator is `SplitMix64` from seed 0.
 pub fn states<const N: usize>(chain: &SerialChain<N>) -> impl Iterator<Item = State<N>> + use<N> {
@@ -45,6 +47,7 @@ pub fn states<const N: usize>(chain: &SerialChain<N>) -> impl Iterator<Item = St
         JointKind::Prismatic => 1.0,
     });
     let mut random = SplitMix64::new(0);
+    let mut random_wrench = SplitMix64::new(2);
     core::iter::repeat_with(move || {
         let mut vector = || SVector::<f64, N>::from_fn(|_, _| random.symmetric());
         State {
@@ -52,8 +55,14 @@ pub fn states<const N: usize>(chain: &SerialChain<N>) -> impl Iterator<Item = St
             qd: vector(),
             qdd: vector(),
             tau: vector(),
+            wrench: Vector6::from_fn(|_, _| random_wrench.symmetric()),
         }
     })
+}
+
+/// A payload to prove an arm with: without any symmetry, as heavy as the last link of `chain`.
+pub fn payload<const N: usize>(chain: &SerialChain<N>) -> Payload {
+    Payload::example(chain)
 }
 
 /// At rest, all coordinates and torques 0.
@@ -65,6 +74,7 @@ impl<const N: usize> Default for State<N> {
             qd: zero,
             qdd: zero,
             tau: zero,
+            wrench: Vector6::zeros(),
         }
     }
 }

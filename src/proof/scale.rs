@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector, Vector3};
 
-use crate::arm::bounds::carried_inertia;
+use crate::arm::bounds::{carried_by_links, carried_inertia};
 use crate::generic::{ThinQr, factor, task_columns};
 use crate::{Arm, JointKind, Real, SerialChain, TaskRow};
 
@@ -14,8 +14,13 @@ pub(super) struct Scale<const N: usize> {
     pub(super) position: f64,
     /// √ of each joint's largest possible entry of M: the entry (i, j) is measured by the product of two.
     pub(super) inertia: SVector<f64, N>,
-    /// Likewise where every prismatic joint is out by the chain's length more: what M's change over that length is measured by.
+    /// Likewise where every prismatic joint is out by the chain's length more: what a difference of M's over that length is measured by.
     pub(super) inertia_ahead: SVector<f64, N>,
+    /// The same two without rotors: M's changes are measured by them, for a rotor's inertia stays as it is.
+    pub(super) links: SVector<f64, N>,
+    pub(super) links_ahead: SVector<f64, N>,
+    /// What the joints' rotors add to M.
+    rotors: SVector<f64, N>,
     /// The first-order condition number of w_D: its relative change, at worst, where the entries of J and M change by
     /// ε times the sizes above, is ε times this.
     pub(super) condition: f64,
@@ -26,21 +31,19 @@ impl<const N: usize> Scale<N> {
     pub(super) fn new(reference: &dyn Arm<N>, chain: &SerialChain<N>, q: &SVector<f64, N>) -> Self {
         let coordinates = crate::arm::coordinates::coordinates(chain, &q.data.0[0]);
         let length = chain.length(&coordinates);
-        let inertia = SVector::from_fn(|i, _| {
-            Real::sqrt(carried_inertia(&chain.joints, i, |joint| {
-                coordinates[joint]
-            }))
-        });
-        let inertia_ahead = SVector::from_fn(|i, _| {
-            let ahead = |joint: usize| coordinates[joint].abs() + length;
-            Real::sqrt(carried_inertia(&chain.joints, i, ahead))
-        });
+        let joints = &chain.joints;
+        let here = |joint: usize| coordinates[joint];
+        let ahead = |joint: usize| coordinates[joint].abs() + length;
+        let roots = |size: &dyn Fn(usize) -> f64| SVector::from_fn(|i, _| Real::sqrt(size(i)));
         let mass: f64 = chain.joints.iter().map(|joint| joint.link.mass).sum();
         let mut scale = Self {
             length,
             position: length + Vector3::from(chain.base.translation).norm(),
-            inertia,
-            inertia_ahead,
+            inertia: roots(&|i| carried_inertia(joints, i, here)),
+            inertia_ahead: roots(&|i| carried_inertia(joints, i, ahead)),
+            links: roots(&|i| carried_by_links(joints, i, here)),
+            links_ahead: roots(&|i| carried_by_links(joints, i, ahead)),
+            rotors: SVector::from_fn(|i, _| joints[i].motor.reflected_inertia()),
             condition: 1.0,
             gravity: Vector3::from(chain.gravity).norm() * Real::sqrt(mass),
         };
@@ -76,9 +79,9 @@ impl<const N: usize> Scale<N> {
     /// What the terms of each joint's torque may amount to, N·m (N), in the motion `(q̇, q̈)`.
     pub(super) fn torque(&self, qd: &SVector<f64, N>, qdd: &SVector<f64, N>) -> SVector<f64, N> {
         let speed: f64 = qd.iter().map(|x| x.abs()).sum();
-        let accelerated: f64 = self.inertia.iter().zip(qdd).map(|(m, x)| m * x.abs()).sum();
-        let turned = self.inertia.amax() * speed * speed;
-        self.inertia * (accelerated + turned + self.gravity)
+        let accelerated: f64 = self.links.iter().zip(qdd).map(|(m, x)| m * x.abs()).sum();
+        let turned = self.links.amax() * speed * speed;
+        self.links * (accelerated + turned + self.gravity) + self.rotors.component_mul(&qdd.abs())
     }
 
     /// The unit of ∂/∂q_i: 1 for an angle, the chain's length for an offset.

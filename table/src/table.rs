@@ -5,6 +5,7 @@
 
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::format;
+use crate::model::is_word;
 use crate::toml_reader::{self, ARM_TABLE, Fields, Key, Located, Value};
 use ulna::{JointKind, TaskRow};
 
@@ -43,6 +44,8 @@ pub(crate) struct ArmTable {
     pub(crate) task: Option<Located<Vec<TaskRow>>>,
     pub(crate) base: Option<PlacementTable>,
     pub(crate) tool: Option<PlacementTable>,
+    /// Whether the arm has a payload at run time.
+    pub(crate) payload: bool,
     pub(crate) joints: Option<Vec<JointTable>>,
 }
 
@@ -95,13 +98,37 @@ pub(crate) enum Turn {
 
 /// One `[[joint]]`.
 pub(crate) struct JointTable {
+    pub(crate) name: Option<Located<String>>,
     pub(crate) kind: JointKind,
     pub(crate) theta: Option<Located<f64>>,
     pub(crate) d: Option<Located<f64>>,
     pub(crate) a: Option<Located<f64>>,
     pub(crate) alpha: Option<Located<f64>>,
     pub(crate) rated_torque: Option<Located<f64>>,
+    pub(crate) limits: Option<LimitsTable>,
+    pub(crate) motor: Option<MotorTable>,
+    pub(crate) friction: Option<FrictionTable>,
     pub(crate) link: Option<LinkTable>,
+}
+
+/// A joint's `limits`.
+pub(crate) struct LimitsTable {
+    pub(crate) lower: Option<Located<f64>>,
+    pub(crate) upper: Option<Located<f64>>,
+    pub(crate) velocity: Option<Located<f64>>,
+}
+
+/// A joint's `motor`.
+pub(crate) struct MotorTable {
+    pub(crate) inertia: Option<Located<f64>>,
+    pub(crate) ratio: Option<Located<f64>>,
+}
+
+/// A joint's `friction`.
+pub(crate) struct FrictionTable {
+    pub(crate) viscous: Option<Located<f64>>,
+    pub(crate) coulomb: Option<Located<f64>>,
+    pub(crate) smoothing: Option<Located<f64>>,
 }
 
 /// One `[joint.link]`.
@@ -131,10 +158,7 @@ impl ArmTable {
         };
         toml_reader::read(text, &ARM_TABLE, format, sink, |fields| Self {
             author,
-            name: fields
-                .value(&format::NAME)
-                .and_then(Value::string)
-                .map(|name| name.map(str::to_owned)),
+            name: string(fields, &format::NAME),
             convention: fields
                 .value(&format::CONVENTION)
                 .and_then(Value::choice)
@@ -155,6 +179,10 @@ impl ArmTable {
                     read_placement(tool, author, &format::TOOL_XYZ)
                 })
             }),
+            payload: fields
+                .value(&format::PAYLOAD)
+                .and_then(|payload| payload.table("[payload]", read_payload))
+                .unwrap_or(false),
             joints: fields
                 .value(&format::JOINTS)
                 .and_then(|joints| read_joints(joints, sink)),
@@ -205,6 +233,11 @@ fn read_placement(placement: &mut Fields<'_>, author: Author, xyz: &'static Key)
     }
 }
 
+fn read_payload(payload: &mut Fields<'_>) -> bool {
+    let runtime = payload.value(&format::RUNTIME).and_then(Value::flag);
+    runtime.is_some_and(|runtime| runtime.value)
+}
+
 /// Three rows of three numbers: [`Model::new`](crate::Model::new) writes no other.
 fn read_rotation(rotation: Value<'_>) -> Option<Located<[Vector; 3]>> {
     let place = rotation.location();
@@ -234,11 +267,25 @@ fn read_joints(joints: Value<'_>, sink: &Sink) -> Option<Vec<JointTable>> {
         );
         rows.truncate(max);
     }
-    Value::tables(rows, |i| format!("joint {i}"), read_joint)
+    // Messages call a joint by its number and, where it has one, its name.
+    let owners: Vec<String> = (1..)
+        .zip(&rows)
+        .map(|(number, row)| {
+            match row
+                .word_of(&format::JOINT_NAME)
+                .filter(|name| is_word(name))
+            {
+                Some(name) => format!("joint {number} ({name})"),
+                None => format!("joint {number}"),
+            }
+        })
+        .collect();
+    Value::tables(rows, |number| owners[number - 1].clone(), read_joint)
 }
 
 fn read_joint(fields: &mut Fields<'_>, owner: &str) -> JointTable {
     JointTable {
+        name: string(fields, &format::JOINT_NAME),
         kind: fields
             .value(&format::KIND)
             .and_then(Value::choice)
@@ -248,6 +295,28 @@ fn read_joint(fields: &mut Fields<'_>, owner: &str) -> JointTable {
         a: number(fields, &format::A),
         alpha: number(fields, &format::ALPHA),
         rated_torque: number(fields, &format::RATED),
+        limits: fields.value(&format::LIMITS).and_then(|limits| {
+            limits.table(&format!("the limits of {owner}"), |fields| LimitsTable {
+                lower: number(fields, &format::LOWER),
+                upper: number(fields, &format::UPPER),
+                velocity: number(fields, &format::VELOCITY),
+            })
+        }),
+        motor: fields.value(&format::MOTOR).and_then(|motor| {
+            motor.table(&format!("the motor of {owner}"), |fields| MotorTable {
+                inertia: number(fields, &format::ROTOR),
+                ratio: number(fields, &format::RATIO),
+            })
+        }),
+        friction: fields.value(&format::FRICTION).and_then(|friction| {
+            friction.table(&format!("the friction of {owner}"), |fields| {
+                FrictionTable {
+                    viscous: number(fields, &format::VISCOUS),
+                    coulomb: number(fields, &format::COULOMB),
+                    smoothing: number(fields, &format::SMOOTHING),
+                }
+            })
+        }),
         link: fields
             .value(&format::LINK)
             .and_then(|link| link.table(owner, |fields| read_link(fields, owner))),
@@ -271,6 +340,11 @@ fn read_inertia(fields: &mut Fields<'_>) -> InertiaTable {
         moments: [&format::XX, &format::YY, &format::ZZ].map(|key| number(fields, key)),
         products: [&format::XY, &format::XZ, &format::YZ].map(|key| number(fields, key)),
     }
+}
+
+fn string(fields: &mut Fields<'_>, key: &'static Key) -> Option<Located<String>> {
+    let string = fields.value(key).and_then(Value::string)?;
+    Some(string.map(str::to_owned))
 }
 
 fn number(fields: &mut Fields<'_>, key: &'static Key) -> Option<Located<f64>> {

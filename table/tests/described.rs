@@ -103,6 +103,29 @@ const NUMBERS: &[Fault] = &[
     ),
 ];
 
+const DRIVES: &[Fault] = &[
+    (
+        |arm| arm.joint_names = vec![Some("a b".into())],
+        "theta = 0.0",
+        "name = \"a b\"\ntheta = 0.0",
+    ),
+    (
+        |arm| arm.joints[0].motor.inertia = -1.0,
+        "theta = 0.0",
+        "motor = { inertia = -1.0, ratio = 1.0 }\ntheta = 0.0",
+    ),
+    (
+        |arm| arm.joints[0].friction.smoothing = 0.0,
+        "theta = 0.0",
+        "friction = { smoothing = 0.0 }\ntheta = 0.0",
+    ),
+    (
+        |arm| (arm.joints[0].limits.lower, arm.joints[0].limits.upper) = (1.0, 0.5),
+        "theta = 0.0",
+        "limits = { lower = 1.0, upper = 0.5 }\ntheta = 0.0",
+    ),
+];
+
 const PHYSICS: &[Fault] = &[
     (
         |arm| arm.joints[0].link.inertia[0][0] = -1.0,
@@ -162,7 +185,7 @@ const TASKS: &[Fault] = &[
 
 #[test]
 fn a_fault_is_refused_with_the_words_that_a_table_is_refused_with() {
-    for (change, from, to) in [NAMES, NUMBERS, PHYSICS, TASKS].concat() {
+    for (change, from, to) in [NAMES, NUMBERS, DRIVES, PHYSICS, TASKS].concat() {
         assert!(PLANAR.contains(from), "the table has no {from:?}");
         let text = PLANAR.replacen(from, to, 1);
         let table = Model::parse(&text, "bad.toml").expect_err("the table should be refused");

@@ -28,7 +28,9 @@ pub(crate) fn agrees<const N: usize>(backend: &str, name: &str, arm: &impl Arm<N
     let mut errors = Errors::default();
     let golden = read::<Golden>(&format!("{name}.jsonl"));
     for (state, golden) in states(name).into_iter().zip(golden) {
-        let State { q, qd, qdd, tau } = state;
+        let State {
+            q, qd, qdd, tau, ..
+        } = state;
         let pose = arm.forward_kinematics(&q).to_homogeneous();
         errors.record(
             "pose",

@@ -101,6 +101,7 @@ class Arm:
                 "d": float(row["d"]),
                 "mass": float(row["link"]["mass"]),
                 "com": row["link"]["com"],
+                "motor": [float(row.get("motor", {}).get(*part)) for part in (("inertia", 0.0), ("ratio", 1.0))],
                 "inertia": [
                     [row["link"]["inertia"].get("".join(sorted(a + b)), 0.0) for b in "xyz"] for a in "xyz"
                 ],
@@ -154,6 +155,8 @@ class Arm:
         columns = [sum(velocity(axis, tool), []) for axis in axes]
         mass_matrix = [[zero] * n for _ in range(n)]
         for i, (joint, com, rotation) in enumerate(links):
+            rotor, ratio = (arb(x) for x in joint["motor"])
+            mass_matrix[i][i] += rotor * ratio * ratio
             inward = [list(column) for column in zip(*rotation)]
             moves = [velocity(axis, com) for axis in axes[: i + 1]]
             spins = [rotate(inward, angular) for _, angular in moves]

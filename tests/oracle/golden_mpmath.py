@@ -10,14 +10,15 @@ Writes data/<arm>.manipulability.jsonl beside this file: one configuration a lin
                     a computation in doubles may have in w_D at best
 
     python3 -m venv .venv && .venv/bin/pip install mpmath==1.3.0
-    .venv/bin/python tests/oracle/golden_mpmath.py
+    .venv/bin/python tests/oracle/golden_mpmath.py [ARM...]
 """
 
 import json
 import pathlib
+import sys
 import tomllib
 
-from mpmath import cos, det, matrix, mp, mpf, nint, nstr, pi, sin, sqrt, svd_r
+from mpmath import cos, det, diag, matrix, mp, mpf, nint, nstr, pi, sin, sqrt, svd_r
 
 mp.dps = 80
 STEP = mpf(10) ** -25
@@ -88,6 +89,9 @@ class Arm:
         self.tool = placement(table.get("tool", {}))
         self.modified = table["convention"] == "modified"
         self.rows = []
+        # What the rotors behind their gears add to M's diagonal.
+        motors = [row.get("motor", {}) for row in table["joint"]]
+        self.rotors = [mpf(motor.get("inertia", 0.0)) * mpf(motor.get("ratio", 1.0)) ** 2 for motor in motors]
         for row in table["joint"]:
             link = row["link"]
             entries = {key: mpf(link["inertia"].get(key, 0.0)) for key in ("xx", "yy", "zz", "xy", "xz", "yz")}
@@ -124,7 +128,7 @@ class Arm:
 
         columns = [sum(velocity(axis, tool), []) for axis in axes]
         n = len(q)
-        mass_matrix = matrix(n, n)
+        mass_matrix = diag(self.rotors)
         for i, (mass, com, rotation, inertia) in enumerate(links):
             inward = [list(column) for column in zip(*rotation)]
             moves = [velocity(axis, com) for axis in axes[: i + 1]]
@@ -163,6 +167,8 @@ def golden(arm, q):
 
 def main():
     for path in sorted(ARMS.glob("*.toml")):
+        if sys.argv[1:] and path.stem not in sys.argv[1:]:
+            continue
         arm = Arm(tomllib.loads(path.read_text()))
         configurations = (HERE / "data" / f"{path.stem}.jsonl").read_text().splitlines()
         with open(HERE / "data" / f"{path.stem}.manipulability.jsonl", "w") as out:

@@ -1,4 +1,4 @@
-"""Golden numbers from Pinocchio, for every arm of arms/.
+"""Golden numbers from Pinocchio, for every arm of arms/, or those that are named.
 
 Builds each arm from its table by its own reading of the conventions and shares nothing with the Rust code.
 Writes data/<arm>.jsonl beside this file: one configuration a line, with
@@ -12,15 +12,17 @@ Writes data/<arm>.jsonl beside this file: one configuration a line, with
     bias_force              at q, qd
     gravity_torque          at q
     forward_dynamics        at q, qd, tau
+    friction_torque         at qd, of an arm that has friction; it is in inverse_dynamics and forward_dynamics too
 Numbers are printed so that they read back as the same doubles.
 
     python3 -m venv .venv && .venv/bin/pip install pin==4.1.0
-    .venv/bin/python tests/oracle/golden_pinocchio.py
+    .venv/bin/python tests/oracle/golden_pinocchio.py [ARM...]
 """
 
 import json
 import math
 import pathlib
+import sys
 import tomllib
 
 import numpy as np
@@ -76,9 +78,23 @@ def build(table):
         body = pin.Inertia(link["mass"], np.array(link["com"]), inertia)
         model.appendBodyToJoint(parent, body, after)
         joint_from_link = after
+    model.armature = np.array([reflected_inertia(row.get("motor", {})) for row in table["joint"]])
     tool = joint_from_link * placement(table.get("tool", {}), unit)
     frame = model.addFrame(pin.Frame("tool", parent, 0, tool, pin.FrameType.OP_FRAME))
     return model, frame
+
+
+def reflected_inertia(motor):
+    return motor.get("inertia", 0.0) * motor.get("ratio", 1.0) ** 2
+
+
+def friction_torque(table, qd):
+    torques = []
+    for row, rate in zip(table["joint"], qd):
+        friction = row.get("friction", {})
+        viscous, coulomb = friction.get("viscous", 0.0), friction.get("coulomb", 0.0)
+        torques.append(viscous * rate + coulomb * rate / math.hypot(rate, friction.get("smoothing", 1e-3)))
+    return np.array(torques)
 
 
 def mass_matrix_rate(model, q, qd):
@@ -94,8 +110,9 @@ def mass_matrix_rate(model, q, qd):
     return np.array(columns).T
 
 
-def golden(model, frame, state):
+def golden(table, model, frame, state):
     q, qd, qdd, tau = state
+    friction = friction_torque(table, qd)
     data = model.createData()
     aligned = pin.LOCAL_WORLD_ALIGNED
     pin.framesForwardKinematics(model, data, q)
@@ -106,7 +123,7 @@ def golden(model, frame, state):
     jacobian_rate = pin.getFrameJacobianTimeVariation(model, data, frame, aligned)
     upper = np.triu_indices(model.nv)
     mass_matrix = pin.crba(model, data, q)
-    return {
+    values = {
         "q": q,
         "qd": qd,
         "qdd": qdd,
@@ -116,15 +133,20 @@ def golden(model, frame, state):
         "jacobian_rate": jacobian_rate.ravel(),
         "mass_matrix": mass_matrix[upper],
         "mass_matrix_rate": mass_matrix_rate(model, q, qd)[upper],
-        "inverse_dynamics": pin.rnea(model, data, q, qd, qdd),
+        "inverse_dynamics": pin.rnea(model, data, q, qd, qdd) + friction,
         "bias_force": pin.nonLinearEffects(model, data, q, qd),
         "gravity_torque": pin.computeGeneralizedGravity(model, data, q),
-        "forward_dynamics": pin.aba(model, data, q, qd, tau),
+        "forward_dynamics": pin.aba(model, data, q, qd, tau - friction),
     }
+    if any("friction" in row for row in table["joint"]):
+        values["friction_torque"] = friction
+    return values
 
 
 def main():
     for path in sorted(ARMS.glob("*.toml")):
+        if sys.argv[1:] and path.stem not in sys.argv[1:]:
+            continue
         table = tomllib.loads(path.read_text())
         model, frame = build(table)
         random = np.random.default_rng(2010)
@@ -135,7 +157,7 @@ def main():
             for _ in range(CONFIGURATIONS):
                 state = random.uniform(-1.0, 1.0, (4, model.nv))
                 state[0] *= reach
-                values = golden(model, frame, state)
+                values = golden(table, model, frame, state)
                 json.dump({name: list(map(float, value)) for name, value in values.items()}, out, separators=(",", ":"))
                 out.write("\n")
         print(f"{path.stem}: {CONFIGURATIONS} configurations")

@@ -102,6 +102,7 @@ fn states<const N: usize>(name: &str) -> Vec<State<N>> {
             qd: vector(&line.qd),
             qdd: vector(&line.qdd),
             tau: vector(&line.tau),
+            ..State::default()
         })
         .collect()
 }
@@ -116,7 +117,7 @@ macro_rules! backends {
 
         mod generated {
             $(mod $name {
-                crate::both!("generated", stringify!($name), ulna_generated::$Type);
+                crate::both!("generated", stringify!($name), ulna_generated::$Type::default());
             })*
         }
     };

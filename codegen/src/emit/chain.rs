@@ -2,7 +2,7 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use ulna::{Joint, JointKind, Link, Placement};
+use ulna::{Friction, Joint, JointKind, Limits, Link, Motor, Placement};
 use ulna_table::Model;
 
 use super::literal::literal;
@@ -40,6 +40,7 @@ fn joint(joint: &Joint) -> TokenStream {
         Some(torque) => quote!(Some(#torque)),
         None => quote!(None),
     };
+    let (limits, motor, friction) = drive(joint);
     let Link { mass, com, inertia } = &joint.link;
     let (mass, com) = (literal(*mass), array(com));
     let inertia = inertia.iter().map(array);
@@ -51,8 +52,54 @@ fn joint(joint: &Joint) -> TokenStream {
             theta: ::ulna::Angle::from_radians(#theta),
             d: #d,
             rated_torque: #rated_torque,
+            limits: #limits,
+            motor: #motor,
+            friction: #friction,
             link: ::ulna::Link { mass: #mass, com: #com, inertia: [#(#inertia),*] },
         }
+    }
+}
+
+/// Its limits, motor and friction.
+fn drive(joint: &Joint) -> (TokenStream, TokenStream, TokenStream) {
+    let limits = if joint.limits == Limits::NONE {
+        quote!(::ulna::Limits::NONE)
+    } else {
+        let Limits {
+            lower,
+            upper,
+            velocity,
+        } = joint.limits;
+        let [lower, upper, velocity] = [lower, upper, velocity].map(literal);
+        quote!(::ulna::Limits { lower: #lower, upper: #upper, velocity: #velocity })
+    };
+    let motor = if joint.motor == Motor::NONE {
+        quote!(::ulna::Motor::NONE)
+    } else {
+        let [inertia, ratio] = [joint.motor.inertia, joint.motor.ratio].map(literal);
+        quote!(::ulna::Motor { inertia: #inertia, ratio: #ratio })
+    };
+    let friction = if joint.friction == Friction::NONE {
+        quote!(::ulna::Friction::NONE)
+    } else {
+        let Friction {
+            viscous,
+            coulomb,
+            smoothing,
+        } = joint.friction;
+        let [viscous, coulomb, smoothing] = [viscous, coulomb, smoothing].map(literal);
+        quote!(::ulna::Friction { viscous: #viscous, coulomb: #coulomb, smoothing: #smoothing })
+    };
+    (limits, motor, friction)
+}
+
+/// `pub const JOINT_NAMES: [&str; N]`.
+pub(super) fn joint_names(model: &Model) -> TokenStream {
+    let n = Literal::usize_unsuffixed(model.joints().len());
+    let names = model.joint_names();
+    quote! {
+        /// What the joints are called, base first.
+        pub const JOINT_NAMES: [&'static str; #n] = [#(#names),*];
     }
 }
 

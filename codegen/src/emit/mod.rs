@@ -7,12 +7,13 @@ mod kernel;
 mod layout;
 mod literal;
 mod parts;
+mod payload;
 
 use std::fmt::Write as _;
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use ulna::Method;
+use ulna::{Method, MethodSet};
 use ulna_table::Model;
 
 use crate::Compiled;
@@ -78,25 +79,47 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
     let joints = model.joints().len();
     let summary = format!(" The arm `{}`: {joints} joints, unrolled.", model.name());
     let chain = chain::chain(model);
+    let joint_names = chain::joint_names(model);
     let n = Literal::usize_unsuffixed(joints);
     let kernels = compiled
         .methods
         .iter()
         .map(|method| kernel::kernel(method, joints));
     let proof = format_ident!("{}_proof", model.name());
+    let (structure, methods, with_payload) = if model.has_payload() {
+        (
+            payload::structure(&name),
+            payload::methods(),
+            payload::chain(&n),
+        )
+    } else {
+        (unit(&name), quote!(), quote!())
+    };
+    let arms = if model.has_payload() {
+        payload::examples(&name).to_vec()
+    } else {
+        vec![quote!(super::#name)]
+    };
+    let generated = compiled.generated();
+    let absent = absent(generated);
+    let generated = generated.iter().map(|method| format_ident!("{method:?}"));
     quote! {
         #[doc = #summary]
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-        pub struct #name;
+        #(#[doc = #absent])*
+        #structure
 
         #[rustfmt::skip]
         impl #name {
             #chain
+            #methods
+            #joint_names
         }
 
         #[rustfmt::skip]
         impl ::ulna::Unrolled<#n> for #name {
             const CHAIN: ::ulna::SerialChain<#n> = Self::CHAIN;
+            const GENERATED: ::ulna::MethodSet = ::ulna::MethodSet::of(&[#(::ulna::Method::#generated),*]);
+            #with_payload
             #(#kernels)*
         }
 
@@ -108,12 +131,47 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
             /// Every method against the textbook formulas, at random states.
             #[test]
             fn generated_code_agrees_with_the_textbook() {
-                let (arm, chain) = (super::#name, super::#name::CHAIN);
-                let states = ::ulna::proof::states(&chain).take(20);
-                let report = ::ulna::proof::compare(&arm, &chain, states);
-                assert!(report.passes(), "{report}");
+                #(
+                    let arm = #arms;
+                    let chain = ::ulna::Unrolled::chain(&arm);
+                    let states = ::ulna::proof::states(&chain).take(20);
+                    let report = ::ulna::proof::compare(&arm, &chain, states);
+                    assert!(report.passes(), "{report}");
+                )*
             }
         }
+    }
+}
+
+/// What the docs of a type say of the methods that are not generated; nothing if all are.
+fn absent(generated: MethodSet) -> Vec<String> {
+    let rest = generated.rest();
+    if rest.is_empty() {
+        return Vec::new();
+    }
+    let mut lines = vec![
+        String::new(),
+        " Not generated, but computed by the textbook formulas on `CHAIN` (the same numbers but for rounding, slower):".to_owned(),
+    ];
+    lines.extend(listed(rest, |method| format!("`{method}`")));
+    lines
+}
+
+/// Methods in lines of a few.
+fn listed(methods: MethodSet, written: impl Fn(Method) -> String) -> Vec<String> {
+    let names: Vec<String> = methods.iter().map(written).collect();
+    let last = names.chunks(4).len().saturating_sub(1);
+    let lines = names.chunks(4).enumerate();
+    lines
+        .map(|(i, names)| format!(" {}{}", names.join(", "), if i < last { "," } else { "." }))
+        .collect()
+}
+
+/// An arm without anything of its own.
+fn unit(name: &Ident) -> TokenStream {
+    quote! {
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct #name;
     }
 }
 
@@ -160,6 +218,14 @@ fn header(model: &Model, source: &str, compiled: &Compiled, counts: &[(Method, C
         line(name.name(), &cells);
     }
     text.truncate(text.trim_end_matches("//   ").len());
+    let absent = compiled.generated().rest();
+    if !absent.is_empty() {
+        text.push_str("//\n// Not generated, but computed by the textbook formulas on CHAIN:\n");
+        for line in listed(absent, |method| method.to_string()) {
+            // Writing to a String does not fail.
+            let _ = writeln!(text, "//  {line}");
+        }
+    }
     let [random, near_singular] = compiled.states;
     // Writing to a String does not fail.
     let _ = write!(

@@ -2,8 +2,8 @@
 //! Rodriguez, Jain and Kreutz-Delgado 1991), without M.
 //!
 //! Where a light link carries a heavy one, its share in M drowns in the rounding of what it carries, and the pivots of M with it.
-//! The inertia that a joint feels when all beyond it are free is the pivot itself: what the next joint takes off vanishes exactly along its axis,
-//! and the light link's share is added to what is left. For more operations than factoring M takes. The links' constants are those of the
+//! The inertia that a joint feels when all beyond it are free is, with its rotor's, the pivot itself: what the next joint takes off vanishes
+//! along its axis exactly, but for what that joint's rotor holds, and the light link's share is added to what is left. For more operations than factoring M takes. The links' constants are those of the
 //! table: regrouped ones count with a light link what a heavy one brings in.
 
 use ulna::JointKind;
@@ -130,38 +130,47 @@ impl<'g> Articulated<'g> {
         }
     }
 
-    /// What is left when the joint is free: nothing along it, exactly.
-    fn freed(self, kind: JointKind, column: &Wrench<'g>, unit: &Wrench<'g>) -> Self {
-        let zero = column.force.0[0].of(0.0);
+    /// What is left when the joint is free. Along it that is `share` of what there was, exactly: nothing where the joint has no rotor,
+    /// for x − x x / x = 0; and with a rotor of inertia r, x − x y / (x + r) = y r / (x + r), without a difference.
+    fn freed(
+        self,
+        kind: JointKind,
+        column: &Wrench<'g>,
+        unit: &Wrench<'g>,
+        share: Expr<'g>,
+    ) -> Self {
         let (f, n) = (column.force.0, column.moment.0);
         let (g, m) = (unit.force.0, unit.moment.0);
         let [axx, ayy, azz, axy, axz, ayz] = self.linear.0;
         let [ixx, iyy, izz, ixy, ixz, iyz] = self.angular.0;
         let (revolute, sliding) = (kind == JointKind::Revolute, kind == JointKind::Prismatic);
-        let unless = |gone: bool, value: Expr<'g>| if gone { zero } else { value };
+        // Each what there was, and what the joint takes off unless it lies along the joint.
+        let left = |along: bool, was: Expr<'g>, off: Expr<'g>| {
+            if along { was * share } else { was - off }
+        };
         let column_of = |j: usize| {
             Vec3([0, 1, 2].map(|i| {
-                let gone = (revolute && j == 2) || (sliding && i == 2);
-                unless(gone, self.mixed[j].0[i] - f[i] * m[j])
+                let along = (revolute && j == 2) || (sliding && i == 2);
+                left(along, self.mixed[j].0[i], f[i] * m[j])
             }))
         };
         Self {
             linear: Sym3([
                 axx - f[0] * g[0],
                 ayy - f[1] * g[1],
-                unless(sliding, azz - f[2] * g[2]),
+                left(sliding, azz, f[2] * g[2]),
                 axy - f[0] * g[1],
-                unless(sliding, axz - f[0] * g[2]),
-                unless(sliding, ayz - f[1] * g[2]),
+                left(sliding, axz, f[0] * g[2]),
+                left(sliding, ayz, f[1] * g[2]),
             ]),
             mixed: [0, 1, 2].map(column_of),
             angular: Sym3([
                 ixx - n[0] * m[0],
                 iyy - n[1] * m[1],
-                unless(revolute, izz - n[2] * m[2]),
+                left(revolute, izz, n[2] * m[2]),
                 ixy - n[0] * m[1],
-                unless(revolute, ixz - n[0] * m[2]),
-                unless(revolute, iyz - n[1] * m[2]),
+                left(revolute, ixz, n[0] * m[2]),
+                left(revolute, iyz, n[1] * m[2]),
             ]),
         }
     }
@@ -193,7 +202,7 @@ pub(crate) fn factors<'g>(chain: &Chain<'g>) -> Factors<'g> {
                 upper[i][k] = along(joint.kind, wrench).named("u", &[i, k]);
             }
             let column = all.column(joint.kind);
-            let pivot = along(joint.kind, &column).named("d", &[i]);
+            let pivot = (along(joint.kind, &column) + joint.reflected).named("d", &[i]);
             let inverse = (one / pivot).named("d_inv", &[i]);
             all.named(i);
             let unit = Wrench {
@@ -202,7 +211,7 @@ pub(crate) fn factors<'g>(chain: &Chain<'g>) -> Factors<'g> {
             };
             (pivots[i], inverse_pivots[i]) = (pivot, inverse);
             wrenches.insert(0, unit);
-            let mut freed = all.freed(joint.kind, &column, &unit);
+            let mut freed = all.freed(joint.kind, &column, &unit, joint.reflected * inverse);
             if i == group.joints.start {
                 freed = freed.turn(group.turn, group.alpha);
                 for wrench in &mut wrenches {

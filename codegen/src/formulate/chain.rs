@@ -7,10 +7,10 @@
 
 use std::ops::Range;
 
-use ulna::{Angle, JointKind, Placement, TaskRows};
+use ulna::{Angle, JointKind, Motor, Placement, TaskRows};
 use ulna_table::Model;
 
-use super::body::{Body, base_parameters};
+use super::body::{Body, base_parameters, links};
 use super::vector::{Turn, Vec3, quarter_turns};
 use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Input};
@@ -30,6 +30,8 @@ pub struct ChainJoint<'g> {
     pub body: Body<'g>,
     /// The same as the table has them.
     pub link: Body<'g>,
+    /// What the joint's rotor adds to its entry of M, as far as the link has it not among its constants.
+    pub reflected: Expr<'g>,
 }
 
 /// Joints about parallel axes.
@@ -91,7 +93,9 @@ pub struct Chain<'g> {
 impl<'g> Chain<'g> {
     /// Lays the model out on the graph.
     pub fn new(graph: &'g Graph, model: &Model) -> Self {
-        let bodies = base_parameters(graph, model);
+        let mut links = links(graph, model);
+        let mut bodies = base_parameters(graph, model, &links);
+        let rotors = rotors(graph, model, [&mut bodies, &mut links]);
         let groups: Vec<Group<'g>> = parallel_runs(model)
             .into_iter()
             .map(|joints| Group {
@@ -108,21 +112,21 @@ impl<'g> Chain<'g> {
                 offset: offset(graph, model, group, i).named("o", &[i]),
                 group_from_own: sum_of_angles(graph, model, i + 1..group.joints.end).inverse(),
                 body: bodies[i],
-                link: Body::of_link(graph, &model.joints()[i].link),
+                link: links[i],
+                reflected: rotors[i],
             })
             .collect();
-        let world_from_base = model.base().rotation;
-        Self {
+        let mut chain = Self {
             graph,
             joints,
             groups,
             base: *model.base(),
             tool: *model.tool(),
-            gravity: Vec3::constant(graph, model.gravity()).rotate(std::array::from_fn(|j| {
-                std::array::from_fn(|i| world_from_base[i][j])
-            })),
+            gravity: Vec3::constant(graph, model.gravity()),
             task: model.task(),
-        }
+        };
+        chain.gravity = chain.of_world(chain.gravity);
+        chain
     }
 
     /// How many joints there are.
@@ -137,6 +141,14 @@ impl<'g> Chain<'g> {
             .iter()
             .position(is_in)
             .unwrap_or(self.groups.len())
+    }
+
+    /// A vector of world axes, in base axes.
+    pub fn of_world(&self, v: Vec3<'g>) -> Vec3<'g> {
+        let world_from_base = self.base.rotation;
+        v.rotate(std::array::from_fn(|j| {
+            std::array::from_fn(|i| world_from_base[i][j])
+        }))
     }
 
     /// The zero vector.
@@ -155,6 +167,34 @@ impl<'g> Chain<'g> {
             .map(|i| self.graph.input(input(i)))
             .collect()
     }
+}
+
+/// What the rotors add to M's diagonal.
+///
+/// The first link of an arm turns about one axis only, that of its rotor's gears: a rotor there is one with the link, and costs nothing.
+fn rotors<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    constants: [&mut Vec<Body<'g>>; 2],
+) -> Vec<Expr<'g>> {
+    let joints = model.joints().iter();
+    let mut rotors: Vec<Expr<'g>> = joints
+        .map(|joint| reflected_inertia(graph, &joint.motor))
+        .collect();
+    if model.joints()[0].kind == JointKind::Revolute {
+        for bodies in constants {
+            let inertia = &mut bodies[0].inertia.0[2];
+            *inertia = *inertia + rotors[0];
+        }
+        rotors[0] = graph.constant(0.0);
+    }
+    rotors
+}
+
+/// `inertia · ratio²`, rounded once.
+fn reflected_inertia<'g>(graph: &'g Graph, motor: &Motor) -> Expr<'g> {
+    let ratio = graph.constant(motor.ratio);
+    graph.constant(motor.inertia) * ratio * ratio
 }
 
 /// Maximal runs of joints about parallel axes.

@@ -4,7 +4,7 @@
 use ulna::JointKind;
 
 use super::body::Body;
-use super::chain::Chain;
+use super::chain::{Chain, ChainJoint};
 use super::vector::Vec3;
 use crate::graph::Expr;
 
@@ -51,7 +51,7 @@ pub(crate) fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
             };
             let mut momenta = vec![unit_momentum(joint.kind, &composite)];
             momenta.extend(passed);
-            name(i, joint.kind, &own, &composite, &momenta);
+            name(i, joint, &own, &composite, &momenta);
             stations.push(Station {
                 composite,
                 momenta: momenta.clone(),
@@ -79,9 +79,18 @@ pub(crate) fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
 }
 
 /// Names what the sweep has at joint `i`; M's entries first, which are among the rest.
-fn name(i: usize, kind: JointKind, own: &Body<'_>, composite: &Body<'_>, momenta: &[Momentum<'_>]) {
+fn name(
+    i: usize,
+    joint: &ChainJoint<'_>,
+    own: &Body<'_>,
+    composite: &Body<'_>,
+    momenta: &[Momentum<'_>],
+) {
     for (j, momentum) in (i..).zip(momenta) {
-        momentum.along(kind).named("m", &[i, j]);
+        // A rotor adds to the diagonal.
+        if j > i || joint.reflected.is_zero() {
+            momentum.along(joint.kind).named("m", &[i, j]);
+        }
     }
     composite.labelled("from", &format!("_from_{}", i + 1));
     own.labelled("own", &format!("_{}", i + 1));
@@ -91,13 +100,18 @@ fn name(i: usize, kind: JointKind, own: &Body<'_>, composite: &Body<'_>, momenta
     }
 }
 
-/// M by rows; full and symmetric.
+/// M by rows; full and symmetric. Rotors behind rigid gears add to its diagonal.
 pub fn mass_matrix<'g>(chain: &Chain<'g>) -> Vec<Vec<Expr<'g>>> {
     let zero = chain.graph.constant(0.0);
     let mut matrix = vec![vec![zero; chain.joint_count()]; chain.joint_count()];
     for (i, (joint, station)) in chain.joints.iter().zip(stations(chain)).enumerate() {
         for (j, momentum) in (i..).zip(&station.momenta) {
             let entry = momentum.along(joint.kind);
+            let entry = if i == j {
+                (entry + joint.reflected).named("m", &[i, i])
+            } else {
+                entry
+            };
             matrix[i][j] = entry;
             matrix[j][i] = entry;
         }

@@ -19,7 +19,9 @@ pub(crate) mod vector;
 use ulna::{Method, TaskRow};
 
 use self::chain::Chain;
-use self::inverse_dynamics::inverse_dynamics;
+use self::inverse_dynamics::{
+    Wrench, inverse_dynamics, inverse_dynamics_with_load, load_of_wrench,
+};
 use self::kinematics::{jacobian_derivatives, jacobian_in_world, pose};
 use self::mass_matrix::mass_matrix;
 use self::mass_matrix_derivatives::mass_matrix_derivatives;
@@ -64,6 +66,34 @@ impl Default for Choices {
     }
 }
 
+/// What of the [`Choices`] is looked for apart from the rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Chosen {
+    /// [`Choices::world`].
+    World,
+    /// All else: how w_D and M's inverse are computed.
+    Task,
+}
+
+/// The choices that a method's formulas depend on. One that is not listed may depend on all of them:
+/// that costs a search where only such methods are generated, and nothing else.
+pub(crate) fn depends_on(method: Method) -> &'static [Chosen] {
+    match method {
+        Method::ForwardKinematics
+        | Method::MassMatrix
+        | Method::MassMatrixDerivatives
+        | Method::InverseDynamics
+        | Method::BiasForce
+        | Method::GravityTorque
+        | Method::ForwardDynamics
+        | Method::InverseDynamicsWithWrench
+        | Method::ForwardDynamicsWithWrench
+        | Method::MassMatrixAndDerivatives => &[],
+        Method::GeometricJacobian | Method::JacobianDerivatives => &[Chosen::World],
+        _ => &[Chosen::World, Chosen::Task],
+    }
+}
+
 /// The results of `method`, which are those of its kernel.
 pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
     match method {
@@ -81,7 +111,14 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
         }
         Method::BiasForce => vec![torque(chain, &chain.inputs(Input::Qd), &zeros(chain))],
         Method::GravityTorque => vec![torque(chain, &zeros(chain), &zeros(chain))],
-        Method::ForwardDynamics => forward_dynamics(chain),
+        Method::ForwardDynamics => forward_dynamics(chain, unloaded(chain)),
+        Method::InverseDynamicsWithWrench => {
+            let (qd, qdd) = (chain.inputs(Input::Qd), chain.inputs(Input::Qdd));
+            let torque = inverse_dynamics_with_load(chain, &qd, &qdd, load_of_wrench(chain));
+            let torque = named(torque, "tau");
+            vec![Output::new("torque", &[chain.joint_count()], torque)]
+        }
+        Method::ForwardDynamicsWithWrench => forward_dynamics(chain, load_of_wrench(chain)),
         Method::MassMatrixAndDerivatives => vec![mass(chain), derivatives_of_mass(chain)],
         Method::JacobianAndGradient => {
             let mut outputs = vec![jacobian(chain, choices)];
@@ -171,8 +208,13 @@ fn torque<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Output<Ex
     Output::new("torque", &[chain.joint_count()], elements)
 }
 
-fn forward_dynamics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
-    let bias = inverse_dynamics(chain, &chain.inputs(Input::Qd), &zeros(chain));
+fn unloaded<'g>(chain: &Chain<'g>) -> Wrench<'g> {
+    (chain.zero(), chain.zero())
+}
+
+fn forward_dynamics<'g>(chain: &Chain<'g>, load: Wrench<'g>) -> Outputs<'g> {
+    let qd = chain.inputs(Input::Qd);
+    let bias = inverse_dynamics_with_load(chain, &qd, &zeros(chain), load);
     let driving = chain
         .inputs(Input::Tau)
         .into_iter()

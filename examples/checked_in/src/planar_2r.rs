@@ -37,6 +37,9 @@ impl Planar2r {
                 theta: ::ulna::Angle::from_radians(0.0),
                 d: 0.0,
                 rated_torque: Some(40.0),
+                limits: ::ulna::Limits::NONE,
+                motor: ::ulna::Motor::NONE,
+                friction: ::ulna::Friction::NONE,
                 link: ::ulna::Link {
                     mass: 1.0,
                     com: [0.5, 0.0, 0.0],
@@ -54,6 +57,9 @@ impl Planar2r {
                 theta: ::ulna::Angle::from_radians(0.0),
                 d: 0.0,
                 rated_torque: Some(15.0),
+                limits: ::ulna::Limits::NONE,
+                motor: ::ulna::Motor::NONE,
+                friction: ::ulna::Friction::NONE,
                 link: ::ulna::Link {
                     mass: 1.0,
                     com: [0.5, 0.0, 0.0],
@@ -73,6 +79,8 @@ impl Planar2r {
         gravity: [0.0, -9.81, 0.0],
         task: ::ulna::TaskRows::new(&[::ulna::TaskRow::X, ::ulna::TaskRow::Y]),
     };
+    /// What the joints are called, base first.
+    pub const JOINT_NAMES: [&'static str; 2] = ["joint 1", "joint 2"];
 }
 #[rustfmt::skip]
 impl ::ulna::Unrolled<2> for Planar2r {

@@ -1,16 +1,41 @@
 //! `[[joint]]` and what is below it.
 
-use super::ANGLE;
 use super::bounds;
+use super::{ANGLE, FRICTION, LIMITS, MOTOR};
+use crate::model::JOINT_NAME_RULE;
 use crate::toml_reader::{Choice, Key, Kind, Limit, Need, Section};
 use ulna::JointKind;
 
 pub(crate) static JOINT: Section = Section {
     header: "[[joint]]",
     meaning: "Once for each joint, base first: its Denavit-Hartenberg row, at q = 0",
-    example: "[[joint]]\nkind = \"revolute\"\ntheta = 0.0\nd = 0.2\na = 0.0\nalpha = 0.0\nrated_torque = 100.0\n",
-    keys: &[&KIND, &THETA, &D, &A, &ALPHA, &RATED, &LINK],
+    example: "[[joint]]\nname = \"shoulder\"\nkind = \"revolute\"\ntheta = 0.0\nd = 0.2\na = 0.0\nalpha = 0.0\nrated_torque = 100.0\n\
+              limits = { lower = -170.0, upper = 170.0, velocity = 90.0 }\n\
+              motor = { inertia = 1e-4, ratio = 100.0 }\n\
+              friction = { viscous = 0.5, coulomb = 2.0, smoothing = 1e-3 }\n",
+    keys: &[
+        &JOINT_NAME,
+        &KIND,
+        &THETA,
+        &D,
+        &A,
+        &ALPHA,
+        &RATED,
+        &LIMITS,
+        &MOTOR,
+        &FRICTION,
+        &LINK,
+    ],
 };
+
+pub(crate) static JOINT_NAME: Key = Key::required(
+    "name",
+    Kind::Text,
+    "What messages and other programs call the joint; no two joints have the same",
+    "`name = \"shoulder\"`",
+)
+.limits(&[Limit::Said(|| JOINT_NAME_RULE.to_owned())])
+.need(Need::Optional("it is called by its number"));
 
 /// How a joint moves that does not say.
 pub(crate) const DEFAULT_KIND: JointKind = JointKind::Revolute;

@@ -66,7 +66,7 @@ mod tests {
     use nalgebra::Matrix4;
 
     use super::*;
-    use ulna::JointKind;
+    use ulna::{Friction, JointKind, Limits, Motor};
 
     fn turn_x(angle: f64) -> Matrix4<f64> {
         Matrix4::from_axis_angle(&Vector3::x_axis(), angle)
@@ -87,7 +87,20 @@ mod tests {
             a,
             theta: Angle::from_radians(theta),
             d,
-            rated_torque: None,
+            rated_torque: Some(1.0),
+            limits: Limits {
+                lower: -1.0,
+                upper: 2.0,
+                velocity: 3.0,
+            },
+            motor: Motor {
+                inertia: 1e-4,
+                ratio: 100.0,
+            },
+            friction: Friction {
+                viscous: 0.5,
+                ..Friction::NONE
+            },
             link: Link {
                 mass: 2.0,
                 com: [0.1, -0.2, 0.3],
@@ -113,6 +126,8 @@ mod tests {
 
         let (mut s, mut m) = (Matrix4::identity(), Matrix4::identity());
         for (row_s, row_m) in standard.iter().zip(&modified) {
+            let drive = |row: &Joint| (row.rated_torque, row.limits, row.motor, row.friction);
+            assert_eq!(drive(row_s), drive(row_m));
             s *= turn_z(row_s.theta.radians) * shift(0.0, row_s.d);
             s *= shift(row_s.a, 0.0) * turn_x(row_s.alpha.radians);
             m *= turn_x(row_m.alpha.radians) * shift(row_m.a, 0.0);

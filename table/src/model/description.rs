@@ -1,6 +1,7 @@
 //! [`Description`]: an arm as a program gives it.
 
 use super::Model;
+use super::joint_names::numbered;
 use super::written::Written;
 use crate::diagnostics::{Diagnostic, Diagnostics, Sink, TableErrors};
 use crate::table::{ArmTable, Author, Convention, InertiaTable};
@@ -42,8 +43,12 @@ pub struct Description {
     pub base: Placement,
     /// `frame_N_from_tool`; frame N is that of the last row in the convention above.
     pub tool: Placement,
+    /// Whether the arm has a payload that is known only at run time.
+    pub payload: bool,
     /// The joints, base first, 1 to 32. In standard form `a` and `alpha` are `a_i` and `α_i`, and the link stands in frame i of that form.
     pub joints: Vec<Joint>,
+    /// The joints' names, base first, where they have any; those left out at the end have none.
+    pub joint_names: Vec<Option<String>>,
 }
 
 impl Model {
@@ -72,6 +77,7 @@ impl Model {
         };
         Self::examine(&text, &source_name, Author::Program, |table, sink| {
             description.refuse_unsymmetric(table, sink);
+            description.refuse_surplus_names(sink);
         })
     }
 
@@ -84,12 +90,33 @@ impl Model {
             task: self.task,
             base: self.base,
             tool: self.tool,
+            payload: self.payload,
             joints: self.joints.clone(),
+            joint_names: self.given_names(),
         }
     }
 }
 
+impl Model {
+    fn given_names(&self) -> Vec<Option<String>> {
+        let names = self.joint_names.iter().enumerate();
+        let given = names.map(|(index, name)| (*name != numbered(index)).then(|| name.clone()));
+        given.collect()
+    }
+}
+
 impl Description {
+    /// Reports names that no joint has.
+    fn refuse_surplus_names(&self, sink: &Sink) {
+        let beyond = self.joint_names.iter().skip(self.joints.len());
+        for name in beyond.flatten() {
+            let message = format!("there is no joint for the name {name:?}");
+            sink.push(
+                Diagnostic::file_error(message).help("give the names as the joints, base first"),
+            );
+        }
+    }
+
     /// Takes tensors that differ from their transposes out of `table`, which has their upper triangles, and reports them.
     fn refuse_unsymmetric(&self, table: &mut ArmTable, sink: &Sink) {
         let rows = table.joints.iter_mut().flatten();

@@ -7,6 +7,8 @@
 mod angle;
 mod convention;
 mod description;
+mod drive;
+mod joint_names;
 mod light;
 mod name;
 mod placement;
@@ -14,6 +16,7 @@ mod validate;
 mod written;
 
 pub use description::Description;
+pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
 
 use std::path::Path;
 
@@ -34,7 +37,9 @@ pub struct Model {
     task: TaskRows,
     base: Placement,
     tool: Placement,
+    payload: bool,
     joints: Vec<Joint>,
+    joint_names: Vec<String>,
     table_hash: String,
 }
 
@@ -148,9 +153,19 @@ impl Model {
         &self.tool
     }
 
+    /// Whether the arm has a payload that is known only at run time ([`ulna::Payload`]).
+    pub fn has_payload(&self) -> bool {
+        self.payload
+    }
+
     /// The joints, base first, 1 to 32, in modified form.
     pub fn joints(&self) -> &[Joint] {
         &self.joints
+    }
+
+    /// What the joints are called, base first: by their names, or `joint 1` where the table gives none. No two are the same.
+    pub fn joint_names(&self) -> &[String] {
+        &self.joint_names
     }
 
     /// SHA-256 of the table's text, hexadecimal; for a model made by a program, of the text that [`Model::new`] writes.

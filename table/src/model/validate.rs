@@ -4,6 +4,8 @@ use nalgebra::Matrix3;
 
 use super::angle::Angles;
 use super::convention::{rows, standard_to_modified};
+use super::drive::drive;
+use super::joint_names::joint_names;
 use super::light::{light_links, weight_of};
 use super::placement::placement;
 use super::{Model, name};
@@ -54,6 +56,10 @@ impl ArmTable {
         let base = place(self.base, &format::BASE_XYZ);
         let tool = place(self.tool, &format::TOOL_XYZ);
         let weights: Vec<_> = self.joints.iter().flatten().map(weight_of).collect();
+        let joint_names = self
+            .joints
+            .as_ref()
+            .and_then(|rows| joint_names(rows, sink));
         let joints: Option<Vec<_>> = self
             .joints
             .map(|rows| rows.iter().map(|row| joint(row, angles, sink)).collect());
@@ -74,7 +80,9 @@ impl ArmTable {
             task: task?,
             base: base?,
             tool,
+            payload: self.payload,
             joints,
+            joint_names: joint_names?,
             table_hash: String::new(),
         })
     }
@@ -117,7 +125,9 @@ fn joint(row: &JointTable, angles: Option<Angles>, sink: &Sink) -> Option<Joint>
     let a = row.a.as_ref().and_then(|a| format::A.admit(a, sink));
     let rated = row.rated_torque.as_ref();
     let rated_torque = rated.map(|rated| format::RATED.admit(rated, sink));
+    let drive = drive(row, angles, sink);
     let link = row.link.as_ref().and_then(|row| link(row, sink));
+    let (limits, motor, friction) = drive?;
     Some(Joint {
         kind: row.kind,
         alpha: alpha?,
@@ -128,6 +138,9 @@ fn joint(row: &JointTable, angles: Option<Angles>, sink: &Sink) -> Option<Joint>
             Some(rated) => Some(rated?),
             None => None,
         },
+        limits,
+        motor,
+        friction,
         link: link?,
     })
 }

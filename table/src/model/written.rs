@@ -4,7 +4,7 @@ use std::fmt::{self, Write};
 
 use super::Description;
 use crate::table::Convention;
-use ulna::{Joint, JointKind, Link, TaskRow};
+use ulna::{Friction, Joint, JointKind, Limits, Link, Motor, TaskRow};
 
 /// The description as a table's text, the same on every machine: each number has the fewest digits that give it back,
 /// and -0 is 0. Of an inertia the upper triangle is written.
@@ -32,18 +32,26 @@ impl fmt::Display for Written<'_> {
             writeln!(text, "xyz = {}", Numbers(placement.translation))?;
             writeln!(text, "rotation = [{x}, {y}, {z}]")?;
         }
-        arm.joints
-            .iter()
-            .try_for_each(|joint| write_joint(text, joint))
+        if arm.payload {
+            writeln!(text, "\n[payload]\nruntime = true")?;
+        }
+        arm.joints.iter().enumerate().try_for_each(|(i, joint)| {
+            let name = arm.joint_names.get(i).and_then(Option::as_deref);
+            write_joint(text, name, joint)
+        })
     }
 }
 
-fn write_joint(text: &mut impl Write, joint: &Joint) -> fmt::Result {
+fn write_joint(text: &mut impl Write, name: Option<&str>, joint: &Joint) -> fmt::Result {
     let kind = match joint.kind {
         JointKind::Revolute => "revolute",
         JointKind::Prismatic => "prismatic",
     };
-    writeln!(text, "\n[[joint]]\nkind = \"{kind}\"")?;
+    writeln!(text, "\n[[joint]]")?;
+    if let Some(name) = name {
+        writeln!(text, "name = {}", Quoted(name))?;
+    }
+    writeln!(text, "kind = \"{kind}\"")?;
     writeln!(text, "theta = {}", Number(joint.theta.radians))?;
     writeln!(text, "d = {}", Number(joint.d))?;
     writeln!(text, "a = {}", Number(joint.a))?;
@@ -51,6 +59,7 @@ fn write_joint(text: &mut impl Write, joint: &Joint) -> fmt::Result {
     if let Some(rated) = joint.rated_torque {
         writeln!(text, "rated_torque = {}", Number(rated))?;
     }
+    write_drive(text, joint)?;
     let Link { mass, com, inertia } = joint.link;
     let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = inertia.map(|row| row.map(Number));
     writeln!(text, "[joint.link]\nmass = {}", Number(mass))?;
@@ -59,6 +68,40 @@ fn write_joint(text: &mut impl Write, joint: &Joint) -> fmt::Result {
         text,
         "inertia = {{ xx = {xx}, yy = {yy}, zz = {zz}, xy = {xy}, xz = {xz}, yz = {yz} }}"
     )
+}
+
+/// What of the joint's drive a table has to say.
+fn write_drive(text: &mut impl Write, joint: &Joint) -> fmt::Result {
+    let (limits, none) = (joint.limits, Limits::NONE);
+    if limits != none {
+        let parts = [
+            ("lower", limits.lower, none.lower),
+            ("upper", limits.upper, none.upper),
+            ("velocity", limits.velocity, none.velocity),
+        ];
+        let given = parts.into_iter().filter(|(_, value, none)| value != none);
+        let given: Vec<_> = given
+            .map(|(key, value, _)| format!("{key} = {}", Number(value)))
+            .collect();
+        writeln!(text, "limits = {{ {} }}", given.join(", "))?;
+    }
+    if joint.motor != Motor::NONE {
+        let [inertia, ratio] = [joint.motor.inertia, joint.motor.ratio].map(Number);
+        writeln!(text, "motor = {{ inertia = {inertia}, ratio = {ratio} }}")?;
+    }
+    if joint.friction != Friction::NONE {
+        let Friction {
+            viscous,
+            coulomb,
+            smoothing,
+        } = joint.friction;
+        let [viscous, coulomb, smoothing] = [viscous, coulomb, smoothing].map(Number);
+        writeln!(
+            text,
+            "friction = {{ viscous = {viscous}, coulomb = {coulomb}, smoothing = {smoothing} }}"
+        )?;
+    }
+    Ok(())
 }
 
 /// A number in TOML.

@@ -152,6 +152,14 @@ impl<'t> Value<'t> {
         self.error(message, format!("expected {expected}"), help)
     }
 
+    /// `true` or `false`.
+    pub fn flag(self) -> Option<Located<bool>> {
+        match self.value {
+            DeValue::Boolean(flag) => Some(self.located(*flag)),
+            _ => self.expected("true or false"),
+        }
+    }
+
     /// The items of an array; `expected` names it in the message.
     pub fn items(self, expected: &str) -> Option<Vec<Value<'t>>> {
         let DeValue::Array(array) = self.value else {
@@ -190,6 +198,11 @@ impl<'t> Value<'t> {
         });
         // Each is read before the first that is none ends the reading.
         read.collect::<Vec<_>>().into_iter().collect()
+    }
+
+    /// What a table has under `key`, if that is a string; nothing is reported.
+    pub fn word_of(&self, key: &Key) -> Option<&'t str> {
+        self.value.get(key.name)?.get_ref().as_str()
     }
 
     /// Whether the value is a string.

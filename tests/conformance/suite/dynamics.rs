@@ -100,23 +100,67 @@ pub(crate) fn forward_dynamics_undo_inverse_dynamics<const N: usize>(
     arm: &impl Arm<N>,
     chain: &SerialChain<N>,
 ) {
-    at_states(chain, |State { q, qd, qdd, tau }| {
-        let torque = arm.inverse_dynamics(&q, &qd, &qdd);
-        near(
-            &arm.forward_dynamics(&q, &qd, &torque),
-            &qdd,
-            0.0,
-            1e-9,
-            "qdd",
-        );
-        let motion = arm.forward_dynamics(&q, &qd, &tau);
-        let scale = arm.bias_force(&q, &qd).amax();
-        near(
-            &arm.inverse_dynamics(&q, &qd, &motion),
-            &tau,
-            scale,
-            1e-11,
-            "tau",
-        );
-    });
+    at_states(
+        chain,
+        |State {
+             q,
+             qd,
+             qdd,
+             tau,
+             wrench,
+         }| {
+            let torque = arm.inverse_dynamics(&q, &qd, &qdd);
+            near(
+                &arm.forward_dynamics(&q, &qd, &torque),
+                &qdd,
+                0.0,
+                1e-9,
+                "qdd",
+            );
+            let motion = arm.forward_dynamics(&q, &qd, &tau);
+            let scale = arm.bias_force(&q, &qd).amax();
+            near(
+                &arm.inverse_dynamics(&q, &qd, &motion),
+                &tau,
+                scale,
+                1e-11,
+                "tau",
+            );
+            let torque = arm.inverse_dynamics_with_wrench(&q, &qd, &qdd, &wrench);
+            near(
+                &arm.forward_dynamics_with_wrench(&q, &qd, &torque, &wrench),
+                &qdd,
+                0.0,
+                1e-9,
+                "qdd with a wrench",
+            );
+        },
+    );
+}
+
+/// Principle of virtual work: what a wrench on the tool takes off the motors' power is its own, F · J q̇ for any rates.
+pub(crate) fn a_wrench_does_the_work_of_the_tool<const N: usize>(
+    arm: &impl Arm<N>,
+    chain: &SerialChain<N>,
+) {
+    at_states(
+        chain,
+        |State {
+             q,
+             qd,
+             qdd,
+             tau,
+             wrench,
+         }| {
+            let without = arm.inverse_dynamics(&q, &qd, &qdd);
+            let with = arm.inverse_dynamics_with_wrench(&q, &qd, &qdd, &wrench);
+            let twist = arm.geometric_jacobian(&q) * tau;
+            let (power, expected) = ((without - with).dot(&tau), wrench.dot(&twist));
+            let size = without.abs().dot(&tau.abs()) + wrench.abs().dot(&twist.abs());
+            assert!(
+                (power - expected).abs() <= 1e-13 * size,
+                "{power} for {expected}"
+            );
+        },
+    );
 }

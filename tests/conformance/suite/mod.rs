@@ -34,6 +34,7 @@ macro_rules! conformance {
             dynamics::velocity_products_follow_from_the_mass_matrix
             dynamics::energy_is_conserved
             dynamics::forward_dynamics_undo_inverse_dynamics
+            dynamics::a_wrench_does_the_work_of_the_tool
             manipulability::manipulability_is_that_of_its_own_jacobian_and_mass_matrix
             manipulability::manipulability_gradient_agrees_with_differences
             manipulability::manipulability_agrees_with_dual_numbers

@@ -1,0 +1,12 @@
+//! Friction in the joints.
+
+use crate::{Friction, Real};
+
+impl Friction {
+    /// What the motor bears for it at the rate `qd`, N·m (N): `viscous · q̇ + coulomb · q̇ / √(q̇² + smoothing²)`
+    /// (Siciliano 7.2; the sign of q̇ in Coulomb's law smoothed, so that friction has a derivative at rest and none of it there).
+    pub fn torque(&self, qd: f64) -> f64 {
+        let smoothed = Real::sqrt(qd * qd + self.smoothing * self.smoothing);
+        self.viscous * qd + self.coulomb * (qd / smoothed)
+    }
+}
