@@ -66,10 +66,10 @@ fn is_wanted(name: &str) -> bool {
     filters.peek().is_none() || filters.any(|filter| name.contains(&filter))
 }
 
-fn column<const N: usize>(
+fn column<const N: usize, const K: usize>(
     all: &[State<N>],
-    of: fn(&State<N>) -> SVector<f64, N>,
-) -> Vec<SVector<f64, N>> {
+    of: fn(&State<N>) -> SVector<f64, K>,
+) -> Vec<SVector<f64, K>> {
     all.iter().map(of).collect()
 }
 

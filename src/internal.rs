@@ -2,6 +2,7 @@
 
 pub use crate::arm::bounds;
 pub use crate::arm::coordinates::{coordinate, coordinates};
+pub use crate::arm::payload::Carried;
 pub use crate::arm::quantity::Quantity;
 pub use crate::kernels::real::Part;
 pub use crate::kernels::scalar as methods;

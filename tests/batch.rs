@@ -10,10 +10,10 @@ use wide::f64x4;
 /// None, fewer than the lanes, as many, and few or many over.
 const LENGTHS: [usize; 8] = [0, 1, 3, 4, 8, 11, 15, 33];
 
-fn column<const N: usize>(
+fn column<const N: usize, const K: usize>(
     all: &[State<N>],
-    of: impl Fn(&State<N>) -> SVector<f64, N>,
-) -> Vec<SVector<f64, N>> {
+    of: impl Fn(&State<N>) -> SVector<f64, K>,
+) -> Vec<SVector<f64, K>> {
     all.iter().map(of).collect()
 }
 
@@ -86,9 +86,9 @@ fn an_arm_with_a_prismatic_joint() {
 #[test]
 fn kernels_run_on_every_scalar() {
     let q = proof_configuration();
-    let exact = Ssrms::mass_matrix_kernel::<f64>(&q);
-    let lanes = Ssrms::mass_matrix_kernel::<f64x4>(&q.map(f64x4::splat));
-    let single = Ssrms::mass_matrix_kernel::<f32>(&q.map(|x| x as f32));
+    let exact = Ssrms.mass_matrix_kernel::<f64>(&q);
+    let lanes = Ssrms.mass_matrix_kernel::<f64x4>(&q.map(f64x4::splat));
+    let single = Ssrms.mass_matrix_kernel::<f32>(&q.map(|x| x as f32));
     for (i, j) in (0..7).flat_map(|i| (0..7).map(move |j| (i, j))) {
         assert_eq!(lanes[i][j].to_array(), [exact[i][j]; 4]);
         let allowed = 1e-5 * exact[0][0];

@@ -78,7 +78,7 @@ macro_rules! define_off {
             }
 
             $(
-                fn $method(&self, $($argument: &SVector<f64, 3>),+) -> $output {
+                fn $method(&self, $($argument: &ulna::argument_type!([3] $argument)),+) -> $output {
                     let mut result = CHAIN.$method($($argument),+);
                     let last = result.part_mut(<$output>::PARTS - 1);
                     last.iter_mut().for_each(|x| *x *= self.factor(stringify!($method)));

@@ -49,6 +49,11 @@ pub enum Input {
     Qdd(usize),
     /// Torque of a joint.
     Tau(usize),
+    /// Component of the wrench on the tool, linear first.
+    Wrench(usize),
+    /// Inertial parameter of the payload about the origin of the last link's frame, in the order of
+    /// [`ulna::Payload::parameters`].
+    Payload(usize),
 }
 
 /// The sum of the coordinates of some revolute joints, plus a constant that is no quarter turn.

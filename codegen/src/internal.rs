@@ -1,6 +1,6 @@
 //! The inside, for the tests of this crate and for measurements: it may change with any version.
 
-pub use crate::accuracy::Scalar;
+pub use crate::accuracy::{Arguments, Scalar};
 pub use crate::differentiate::reverse;
 pub use crate::formulate::chain::Chain;
 pub use crate::formulate::kinematics::{Twist, jacobian_in_group, jacobian_in_world};

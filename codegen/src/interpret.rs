@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use ulna::internal::{Quantity, coordinates};
 use ulna::proof::State;
-use ulna::{Arm, Joint, JointKind, Method, SerialChain, TaskRows};
+use ulna::{Arm, Joint, JointKind, Method, Payload, PayloadError, SerialChain, TaskRows};
 use ulna_table::{JointCountError, Model};
 
 use crate::accuracy::{Arguments, Scalar};
@@ -19,6 +19,8 @@ pub struct Interpreter<const N: usize> {
     chain: SerialChain<N>,
     compiled: Arc<Compiled>,
     arithmetic: Arithmetic,
+    /// The payload's parameters. Programs of an arm that has none do not read them.
+    payload: Vec<f64>,
 }
 
 /// What programs are run in; results are rounded to `f64`.
@@ -47,6 +49,19 @@ impl<const N: usize> Interpreter<N> {
             chain: SerialChain::try_from(model)?,
             compiled: Arc::new(crate::compile(model)),
             arithmetic: Arithmetic::of::<f64>(),
+            payload: Payload::NONE.parameters(model.tool()).to_vec(),
+        })
+    }
+
+    /// The same arm with `payload`, if its table gives it one at run time.
+    ///
+    /// # Errors
+    /// A payload so heavy that a link would be lost in the rounding of what it carries.
+    pub fn carrying(&self, payload: &Payload) -> Result<Self, PayloadError> {
+        self.chain.admit(payload)?;
+        Ok(Self {
+            payload: payload.parameters(&self.chain.tool).to_vec(),
+            ..self.clone()
         })
     }
 
@@ -75,8 +90,21 @@ impl<const N: usize> Interpreter<N> {
 
     /// The numbers of a method's result, and whether the task is singular, if that matters to the method.
     fn numbers(&self, method: Method, state: &State<N>) -> (Vec<f64>, bool) {
-        let State { q, qd, qdd, tau } = state;
-        let arguments = [q.as_slice(), qd.as_slice(), qdd.as_slice(), tau.as_slice()];
+        let State {
+            q,
+            qd,
+            qdd,
+            tau,
+            wrench,
+        } = state;
+        let arguments = Arguments {
+            q: q.as_slice(),
+            qd: qd.as_slice(),
+            qdd: qdd.as_slice(),
+            tau: tau.as_slice(),
+            wrench: wrench.as_slice(),
+            payload: &self.payload,
+        };
         let mut numbers = numbers(
             &self.compiled,
             method,
@@ -98,17 +126,17 @@ fn numbers(
     compiled: &Compiled,
     method: Method,
     joints: &[Joint],
-    [q, qd, qdd, tau]: Arguments<'_>,
+    arguments: Arguments<'_>,
     arithmetic: Arithmetic,
 ) -> Vec<f64> {
     let Some(found) = MethodProgram::of(&compiled.methods, method) else {
         return Vec::new();
     };
-    let read = joints.iter().zip(q);
+    let read = joints.iter().zip(arguments.q);
     let q: Vec<f64> = read
         .map(|(joint, q)| (arithmetic.coordinate)(joint.kind, *q))
         .collect();
-    (arithmetic.run)(&found.program, [&q, qd, qdd, tau])
+    (arithmetic.run)(&found.program, Arguments { q: &q, ..arguments })
 }
 
 /// A result from its numbers, part by part.
@@ -140,7 +168,7 @@ macro_rules! define_interpreter {
             }
 
             $(
-                fn $method(&self, $($argument: &SVector<f64, N>),+) -> $output {
+                fn $method(&self, $($argument: &ulna::argument_type!([N] $argument)),+) -> $output {
                     let state = State { $($argument: *$argument,)+ ..State::default() };
                     self.run(Method::$variant, &state)
                 }

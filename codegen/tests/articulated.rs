@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ulna::{JointKind, Method};
-use ulna_codegen::internal::{Chain, Choices, Graph, Scalar, formulate, schedule};
+use ulna_codegen::internal::{Arguments, Chain, Choices, Graph, Scalar, formulate, schedule};
 use ulna_codegen::{DoubleDouble, Program};
 use ulna_table::Model;
 
@@ -19,7 +19,11 @@ fn gradient(model: &Model, articulated: bool) -> Program {
 }
 
 fn run<R: Scalar>(program: &Program, q: &[f64]) -> Vec<f64> {
-    R::run(program, [q, &[], &[], &[]])
+    let arguments = Arguments {
+        q,
+        ..Arguments::default()
+    };
+    R::run(program, arguments)
 }
 
 /// The largest difference, relative to the largest value.
@@ -45,7 +49,13 @@ fn configurations(model: &Model) -> Vec<Vec<f64>> {
 
 #[test]
 fn articulated_bodies_lead_to_the_same_gradient() {
-    for arm in ["planar_2r", "ssrms", "oblique_6", "table1_literal"] {
+    for arm in [
+        "planar_2r",
+        "ssrms",
+        "oblique_6",
+        "table1_literal",
+        "geared_6",
+    ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../arms/{arm}.toml"));
         let model = Model::load(path).unwrap_or_else(|errors| panic!("{errors}"));
         let (by_mass, by_bodies) = (gradient(&model, false), gradient(&model, true));

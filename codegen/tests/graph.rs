@@ -57,7 +57,7 @@ fn read(input: Input, angle: impl Fn(usize) -> AngleSum, q: &[f64; JOINTS]) -> f
         Input::Sin(index) => value(index).sin(),
         Input::Cos(index) => value(index).cos(),
         Input::Qd(i) => 0.7 - i as f64,
-        Input::Qdd(_) | Input::Tau(_) => 0.0,
+        Input::Qdd(_) | Input::Tau(_) | Input::Wrench(_) | Input::Payload(_) => 0.0,
     }
 }
 

@@ -7,6 +7,7 @@ pub(crate) mod coordinates;
 mod description;
 mod drive;
 pub(crate) mod methods;
+pub(crate) mod payload;
 pub(crate) mod quantity;
 pub mod singular;
 mod task;
@@ -17,6 +18,7 @@ pub use angle::Angle;
 pub use coordinates::{PLAIN_LIMIT, PRISMATIC_LIMIT};
 pub use description::{Joint, JointKind, Link, Placement};
 pub use drive::{Friction, Limits, Motor};
+pub use payload::{Payload, PayloadError};
 pub use task::{TaskRow, TaskRows};
 
 macro_rules! define_arm {
@@ -53,11 +55,11 @@ macro_rules! define_arm {
     };
     (@method [$($doc:tt)*] $method:ident($($argument:ident),+) -> $output:ty) => {
         $($doc)*
-        fn $method(&self, $($argument: &SVector<f64, N>),+) -> $output;
+        fn $method(&self, $($argument: &$crate::argument_type!([N] $argument)),+) -> $output;
     };
     (@method [$($doc:tt)*] $method:ident($($argument:ident),+) -> $output:ty { |$arm:ident| $default:expr }) => {
         $($doc)*
-        fn $method(&self, $($argument: &SVector<f64, N>),+) -> $output {
+        fn $method(&self, $($argument: &$crate::argument_type!([N] $argument)),+) -> $output {
             let $arm = self;
             $default
         }

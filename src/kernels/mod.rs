@@ -23,12 +23,17 @@ macro_rules! define_unrolled {
         /// ±[`PRISMATIC_LIMIT`](crate::arm::PRISMATIC_LIMIT); [`SerialChain::is_singular`] judges the volume of J's rows.
         /// The methods of [`Arm`](crate::Arm) see to both.
         pub trait Unrolled<const N: usize> {
-            /// The arm as data.
+            /// The arm as data, without what it carries at run time.
             const CHAIN: SerialChain<N>;
+
+            /// The arm as data, with what it carries.
+            fn chain(&self) -> SerialChain<N> {
+                Self::CHAIN
+            }
 
             $(
                 #[doc = $returns]
-                fn $kernel<R: Real>($($argument: &[R; N]),+) -> $returned;
+                fn $kernel<R: Real>(&self, $($argument: &$crate::argument_type!([R; N] $argument)),+) -> $returned;
             )+
         }
     };

@@ -1,52 +1,58 @@
 //! The methods of [`Arm`](crate::Arm) for any unrolled arm; [`implement_arm!`](crate::implement_arm) forwards to them.
 
-use core::marker::PhantomData;
-
 use bytemuck::cast_ref;
-use nalgebra::SVector;
 
 use super::Unrolled;
 use super::simd::{self, Call, Double, Plain as _, Settled};
 use crate::arm::coordinates::{are_plain, coordinates};
 
+/// An argument where a kernel may read it: in place, but for coordinates that are absurd.
+macro_rules! read {
+    ($arm:ident q $q:ident) => {
+        let safe;
+        let $q = &$q.data.0[0];
+        let $q = if are_plain($q) {
+            $q
+        } else {
+            safe = coordinates(&$arm::CHAIN, $q);
+            &safe
+        };
+    };
+    ($arm:ident $other:ident $name:ident) => {
+        let $name = &$name.data.0[0];
+    };
+}
+
 macro_rules! define_methods {
     ([] $(
         $(#[$doc:meta])*
-        $variant:ident = $method:ident($q:ident $(, $other:ident)*) -> $output:ty
+        $variant:ident = $method:ident($($argument:ident),+) -> $output:ty
         { kernel $returns:literal $kernel:ident -> $returned:ty $(, zero from $zero:literal)? }
         $({ $($rest:tt)* })*
     )+) => {
         $(
             #[doc = concat!("[`Arm::", stringify!($method), "`](crate::Arm::", stringify!($method), ").")]
-            pub fn $method<A: Unrolled<N>, const N: usize>($q: &SVector<f64, N> $(, $other: &SVector<f64, N>)*) -> $output {
+            pub fn $method<A: Unrolled<N>, const N: usize>(
+                arm: &A,
+                $($argument: &$crate::argument_type!([N] $argument)),+
+            ) -> $output {
                 struct Run<'a, A, const N: usize> {
-                    $q: &'a [f64; N],
-                    $($other: &'a [f64; N],)*
-                    arm: PhantomData<A>,
+                    arm: &'a A,
+                    $($argument: &'a $crate::argument_type!([f64; N] $argument),)+
                 }
                 impl<A: Unrolled<N>, const N: usize> Call for Run<'_, A, N> {
                     type Output = $output;
 
                     #[inline(always)]
                     fn run<R: Double>(self) -> $output {
-                        let returned = A::$kernel::<R>(
-                            cast_ref::<[f64; N], [R; N]>(self.$q)
-                            $(, cast_ref::<[f64; N], [R; N]>(self.$other))*
-                        );
-                        finish!(returned $(, A, self.$q, $zero)?)
+                        let returned = self.arm.$kernel::<R>($(
+                            cast_ref::<_, $crate::argument_type!([R; N] $argument)>(self.$argument)
+                        ),+);
+                        finish!(returned $(, A, self.q, $zero)?)
                     }
                 }
-                // In place wherever the kernel may read them there.
-                let safe;
-                let $q = &$q.data.0[0];
-                let $q = if are_plain($q) {
-                    $q
-                } else {
-                    safe = coordinates(&A::CHAIN, $q);
-                    &safe
-                };
-                $(let $other = &$other.data.0[0];)*
-                simd::run(Run::<A, N> { $q, $($other,)* arm: PhantomData })
+                $(read! { A $argument $argument })+
+                simd::run(Run::<A, N> { arm, $($argument),+ })
             }
         )+
     };
@@ -89,8 +95,8 @@ macro_rules! implement_arm {
             }
 
             $(
-                fn $method(&self, $($argument: &$crate::nalgebra::SVector<f64, $n>),+) -> $output {
-                    $crate::internal::methods::$method::<Self, $n>($($argument),+)
+                fn $method(&self, $($argument: &$crate::argument_type!([$n] $argument)),+) -> $output {
+                    $crate::internal::methods::$method::<Self, $n>(self, $($argument),+)
                 }
             )+
         }

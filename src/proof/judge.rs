@@ -156,7 +156,9 @@ impl<'a, const N: usize> Judge<'a, N> {
         found: Vector<N>,
         expected: impl FnOnce() -> Vector<N>,
     ) -> Verdict {
-        self.torques_of(&self.state.qd, &self.state.qdd, found, expected)
+        let State { qd, qdd, .. } = self.state;
+        let sizes = self.scale.torque(qd, qdd) + self.friction();
+        rounded::<N>(Scale::torques(&sizes, &(found - expected())))
     }
 
     pub(super) fn torques_unaccelerated(
@@ -179,8 +181,60 @@ impl<'a, const N: usize> Judge<'a, N> {
     pub(super) fn accelerations(&self, found: Vector<N>, _: impl FnOnce() -> Vector<N>) -> Verdict {
         let State { q, qd, tau, .. } = self.state;
         let needed = self.reference.inverse_dynamics(q, qd, &found);
-        let sizes = self.scale.torque(qd, &found) + tau.abs();
+        let sizes = self.scale.torque(qd, &found) + tau.abs() + self.friction();
         rounded::<N>(Scale::torques(&sizes, &(needed - tau)))
+    }
+
+    pub(super) fn torques_with_wrench(
+        &self,
+        found: Vector<N>,
+        expected: impl FnOnce() -> Vector<N>,
+    ) -> Verdict {
+        let State { qd, qdd, .. } = self.state;
+        let sizes = self.scale.torque(qd, qdd) + self.torques_of_wrench() + self.friction();
+        rounded::<N>(Scale::torques(&sizes, &(found - expected())))
+    }
+
+    /// The error of the torques that the accelerations need.
+    pub(super) fn accelerations_with_wrench(
+        &self,
+        found: Vector<N>,
+        _: impl FnOnce() -> Vector<N>,
+    ) -> Verdict {
+        let State {
+            q, qd, tau, wrench, ..
+        } = self.state;
+        let needed = self
+            .reference
+            .inverse_dynamics_with_wrench(q, qd, &found, wrench);
+        let sizes =
+            self.scale.torque(qd, &found) + tau.abs() + self.torques_of_wrench() + self.friction();
+        rounded::<N>(Scale::torques(&sizes, &(needed - tau)))
+    }
+
+    /// What the terms of each joint's share in the wrench may amount to, N·m (N).
+    fn torques_of_wrench(&self) -> Vector<N> {
+        let wrench = self.state.wrench.abs();
+        let force = wrench.fixed_rows::<3>(0).sum();
+        let moment = wrench.fixed_rows::<3>(3).sum();
+        Vector::from_fn(|joint, _| match self.chain.joints[joint].kind {
+            JointKind::Revolute => moment + force * self.scale.length,
+            JointKind::Prismatic => force,
+        })
+    }
+
+    /// Friction's terms have one sign: each joint's error is relative to its friction.
+    pub(super) fn frictions(
+        &self,
+        found: Vector<N>,
+        expected: impl FnOnce() -> Vector<N>,
+    ) -> Verdict {
+        let expected = expected();
+        rounded::<N>(Scale::torques(&expected.abs(), &(found - expected)))
+    }
+
+    fn friction(&self) -> Vector<N> {
+        self.reference.friction_torque(&self.state.qd).abs()
     }
 
     fn torques_of(

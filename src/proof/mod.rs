@@ -13,7 +13,7 @@ mod scale;
 
 use core::f64::consts::PI;
 
-use nalgebra::SVector;
+use nalgebra::{SVector, Vector6};
 
 use judge::Judge;
 pub use report::{Deviation, Report};
@@ -33,10 +33,12 @@ pub struct State<const N: usize> {
     pub qdd: SVector<f64, N>,
     /// Joint torques, N·m (N).
     pub tau: SVector<f64, N>,
+    /// Wrench `[f; n]` on the tool, N and N·m, world axes.
+    pub wrench: Vector6<f64>,
 }
 
 /// Random states of `chain` without end, always the same ones: revolute joints in [−π, π] rad, prismatic ones in [−1, 1] m,
-/// rates, accelerations and torques in [−1, 1].
+/// rates, accelerations, torques and wrenches in [−1, 1].
 ///
 /// The generator is `SplitMix64` from seed 0.
 pub fn states<const N: usize>(chain: &SerialChain<N>) -> impl Iterator<Item = State<N>> + use<N> {
@@ -45,6 +47,7 @@ pub fn states<const N: usize>(chain: &SerialChain<N>) -> impl Iterator<Item = St
         JointKind::Prismatic => 1.0,
     });
     let mut random = SplitMix64::new(0);
+    let mut random_wrench = SplitMix64::new(2);
     core::iter::repeat_with(move || {
         let mut vector = || SVector::<f64, N>::from_fn(|_, _| random.symmetric());
         State {
@@ -52,6 +55,7 @@ pub fn states<const N: usize>(chain: &SerialChain<N>) -> impl Iterator<Item = St
             qd: vector(),
             qdd: vector(),
             tau: vector(),
+            wrench: Vector6::from_fn(|_, _| random_wrench.symmetric()),
         }
     })
 }
@@ -65,6 +69,7 @@ impl<const N: usize> Default for State<N> {
             qd: zero,
             qdd: zero,
             tau: zero,
+            wrench: Vector6::zeros(),
         }
     }
 }

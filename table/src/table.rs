@@ -44,6 +44,8 @@ pub(crate) struct ArmTable {
     pub(crate) task: Option<Located<Vec<TaskRow>>>,
     pub(crate) base: Option<PlacementTable>,
     pub(crate) tool: Option<PlacementTable>,
+    /// Whether the arm has a payload at run time.
+    pub(crate) payload: bool,
     pub(crate) joints: Option<Vec<JointTable>>,
 }
 
@@ -177,6 +179,10 @@ impl ArmTable {
                     read_placement(tool, author, &format::TOOL_XYZ)
                 })
             }),
+            payload: fields
+                .value(&format::PAYLOAD)
+                .and_then(|payload| payload.table("[payload]", read_payload))
+                .unwrap_or(false),
             joints: fields
                 .value(&format::JOINTS)
                 .and_then(|joints| read_joints(joints, sink)),
@@ -225,6 +231,11 @@ fn read_placement(placement: &mut Fields<'_>, author: Author, xyz: &'static Key)
                 .map(|matrix| Turn::Matrix(matrix.into())),
         },
     }
+}
+
+fn read_payload(payload: &mut Fields<'_>) -> bool {
+    let runtime = payload.value(&format::RUNTIME).and_then(Value::flag);
+    runtime.is_some_and(|runtime| runtime.value)
 }
 
 /// Three rows of three numbers: [`Model::new`](crate::Model::new) writes no other.

@@ -102,6 +102,7 @@ fn states<const N: usize>(name: &str) -> Vec<State<N>> {
             qd: vector(&line.qd),
             qdd: vector(&line.qdd),
             tau: vector(&line.tau),
+            ..State::default()
         })
         .collect()
 }

@@ -20,7 +20,7 @@ use crate::formulate::task::relative_volume;
 use crate::graph::Graph;
 use crate::schedule::{Program, Size, schedule};
 
-pub(crate) use scalar::Arguments;
+pub use scalar::Arguments;
 pub use scalar::Scalar;
 
 use state::State;
@@ -78,6 +78,7 @@ impl TestStates {
         let mut states: Vec<State> = (0..RANDOM)
             .map(|_| State::random(model, &mut random))
             .collect();
+        State::load(&mut states, model);
         let singular_everywhere = states.iter().all(|state| {
             let volume_squared = state.exactly(&program)[0].to_f64();
             counts_as_zero(model, &state.q, volume_squared)

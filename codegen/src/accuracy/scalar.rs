@@ -7,8 +7,22 @@ use crate::double_double::{DoubleDouble, LARGEST_ANGLE};
 use crate::graph::Input;
 use crate::schedule::Program;
 
-/// What a program reads: q, q̇, q̈ and τ, a number for each joint.
-pub(crate) type Arguments<'a> = [&'a [f64]; 4];
+/// What a program reads.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Arguments<'a> {
+    /// Joint coordinates.
+    pub q: &'a [f64],
+    /// Their rates.
+    pub qd: &'a [f64],
+    /// Their accelerations.
+    pub qdd: &'a [f64],
+    /// Joint torques.
+    pub tau: &'a [f64],
+    /// The wrench on the tool.
+    pub wrench: &'a [f64],
+    /// The payload's parameters; none of an arm that has no payload.
+    pub payload: &'a [f64],
+}
 
 /// A scalar that a program can be run on.
 pub trait Scalar: Real {
@@ -69,9 +83,17 @@ impl Scalar for DoubleDouble {
 /// All results of `program` in order, with sines and cosines by `sines`.
 pub(super) fn evaluate<R: Scalar>(
     program: &Program,
-    [q, qd, qdd, tau]: Arguments<'_>,
+    arguments: Arguments<'_>,
     sines: fn(R) -> (R, R),
 ) -> Vec<R> {
+    let Arguments {
+        q,
+        qd,
+        qdd,
+        tau,
+        wrench,
+        payload,
+    } = arguments;
     let angles = program.angles.iter();
     let angles: Vec<(R, R)> = angles
         .map(|angle| sines(angle.at(|i| R::of(q[i]), R::number)))
@@ -83,5 +105,7 @@ pub(super) fn evaluate<R: Scalar>(
         Input::Qd(i) => R::of(qd[i]),
         Input::Qdd(i) => R::of(qdd[i]),
         Input::Tau(i) => R::of(tau[i]),
+        Input::Wrench(i) => R::of(wrench[i]),
+        Input::Payload(i) => R::of(payload[i]),
     })
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use ulna::internal::random::SplitMix64;
-use ulna::{JointKind, Real as _};
+use ulna::{JointKind, Payload, Real as _};
 use ulna_table::Model;
 
 use super::scalar::{Arguments, evaluate};
@@ -17,6 +17,8 @@ pub(super) struct State {
     pub(super) qd: Vec<f64>,
     pub(super) qdd: Vec<f64>,
     pub(super) tau: Vec<f64>,
+    pub(super) wrench: Vec<f64>,
+    pub(super) payload: Vec<f64>,
 }
 
 impl State {
@@ -34,11 +36,37 @@ impl State {
             qd: vector(),
             qdd: vector(),
             tau: vector(),
+            wrench: Vec::new(),
+            payload: Vec::new(),
+        }
+    }
+
+    /// Gives every state a wrench and a payload, from a stream of their own.
+    pub(super) fn load(states: &mut [Self], model: &Model) {
+        let mut random = SplitMix64::new(2);
+        for state in states {
+            state.wrench = (0..6).map(|_| random.symmetric()).collect();
+            state.payload = payload(model, &mut random);
         }
     }
 
     fn arguments(&self) -> Arguments<'_> {
-        [&self.q, &self.qd, &self.qdd, &self.tau]
+        let Self {
+            q,
+            qd,
+            qdd,
+            tau,
+            wrench,
+            payload,
+        } = self;
+        Arguments {
+            q,
+            qd,
+            qdd,
+            tau,
+            wrench,
+            payload,
+        }
     }
 
     pub(super) fn exactly(&self, program: &Program) -> Vec<DoubleDouble> {
@@ -49,4 +77,18 @@ impl State {
     pub(super) fn in_f64(&self, program: &Program) -> Vec<f64> {
         evaluate(program, self.arguments(), portable_sin_cos)
     }
+}
+
+/// The parameters of a body as heavy as the arm's last link on average, and within a tenth of a metre of its tool;
+/// none for an arm without a payload.
+fn payload(model: &Model, random: &mut SplitMix64) -> Vec<f64> {
+    let Some(last) = model.joints().last().filter(|_| model.has_payload()) else {
+        return Vec::new();
+    };
+    let mass = last.link.mass * (1.0 + random.symmetric());
+    let com = std::array::from_fn(|_| 0.1 * random.symmetric());
+    let moment = 0.01 * mass;
+    let inertia = [[moment, 0.0, 0.0], [0.0, moment, 0.0], [0.0, 0.0, moment]];
+    let payload = Payload::new(mass, com, inertia).unwrap_or_default();
+    payload.parameters(model.tool()).to_vec()
 }

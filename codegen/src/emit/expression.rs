@@ -174,7 +174,12 @@ impl<'p> Writer<'p> {
     fn input(&self, input: Input) -> TokenStream {
         let name = self.input_name(input);
         match input {
-            Input::Q(i) | Input::Qd(i) | Input::Qdd(i) | Input::Tau(i) => {
+            Input::Q(i)
+            | Input::Qd(i)
+            | Input::Qdd(i)
+            | Input::Tau(i)
+            | Input::Wrench(i)
+            | Input::Payload(i) => {
                 let i = Literal::usize_unsuffixed(i);
                 quote!(#name[#i])
             }
@@ -189,6 +194,8 @@ impl<'p> Writer<'p> {
             Input::Qd(_) => format_ident!("qd"),
             Input::Qdd(_) => format_ident!("qdd"),
             Input::Tau(_) => format_ident!("tau"),
+            Input::Wrench(_) => format_ident!("wrench"),
+            Input::Payload(_) => format_ident!("payload"),
             Input::Sin(angle) => format_ident!("s{}", self.angle_names[angle]),
             Input::Cos(angle) => format_ident!("c{}", self.angle_names[angle]),
         }

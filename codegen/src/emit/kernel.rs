@@ -22,8 +22,8 @@ pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
     } = compiled;
     let name = format_ident!("{}", method.kernel());
     let writer = Writer::new(program);
-    let length = Literal::usize_unsuffixed(joints);
     let arguments = method.arguments().iter().map(|argument| {
+        let length = Literal::usize_unsuffixed(argument.length(joints));
         let argument = argument.name();
         let used = if writer.uses_argument(argument) {
             ""
@@ -33,6 +33,9 @@ pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
         let argument = format_ident!("{used}{argument}");
         quote!(#argument: &[R; #length])
     });
+    let payload = writer
+        .uses_argument("payload")
+        .then(|| quote!(let payload = &self.payload.parameters::<R>();));
     let types: Vec<TokenStream> = program
         .outputs
         .iter()
@@ -54,7 +57,8 @@ pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
     quote! {
         #(#doc)*
         #[inline(always)]
-        fn #name<R: ::ulna::Real>(#(#arguments),*) -> #result {
+        fn #name<R: ::ulna::Real>(&self, #(#arguments),*) -> #result {
+            #payload
             #angles
             #body
             #value

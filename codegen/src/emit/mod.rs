@@ -5,10 +5,11 @@ mod expression;
 mod kernel;
 mod literal;
 mod parts;
+mod payload;
 
 use std::fmt::Write as _;
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use ulna::Method;
 use ulna_table::Model;
@@ -80,20 +81,35 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
         .iter()
         .map(|method| kernel::kernel(method, joints));
     let proof = format_ident!("{}_proof", model.name());
+    let (structure, methods, with_payload) = if model.has_payload() {
+        (
+            payload::structure(&name),
+            payload::methods(),
+            payload::chain(&n),
+        )
+    } else {
+        (unit(&name), quote!(), quote!())
+    };
+    let arms = if model.has_payload() {
+        payload::examples(&name).to_vec()
+    } else {
+        vec![quote!(super::#name)]
+    };
     quote! {
         #[doc = #summary]
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-        pub struct #name;
+        #structure
 
         #[rustfmt::skip]
         impl #name {
             #chain
             #joint_names
+            #methods
         }
 
         #[rustfmt::skip]
         impl ::ulna::Unrolled<#n> for #name {
             const CHAIN: ::ulna::SerialChain<#n> = Self::CHAIN;
+            #with_payload
             #(#kernels)*
         }
 
@@ -105,12 +121,23 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
             /// Every method against the textbook formulas, at random states.
             #[test]
             fn generated_code_agrees_with_the_textbook() {
-                let (arm, chain) = (super::#name, super::#name::CHAIN);
-                let states = ::ulna::proof::states(&chain).take(20);
-                let report = ::ulna::proof::compare(&arm, &chain, states);
-                assert!(report.passes(), "{report}");
+                #(
+                    let arm = #arms;
+                    let chain = ::ulna::Unrolled::chain(&arm);
+                    let states = ::ulna::proof::states(&chain).take(20);
+                    let report = ::ulna::proof::compare(&arm, &chain, states);
+                    assert!(report.passes(), "{report}");
+                )*
             }
         }
+    }
+}
+
+/// An arm without anything of its own.
+fn unit(name: &Ident) -> TokenStream {
+    quote! {
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct #name;
     }
 }
 

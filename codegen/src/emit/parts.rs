@@ -7,6 +7,7 @@ use std::collections::{HashMap, HashSet};
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
+use ulna::Payload;
 
 use super::expression::Writer;
 use super::kernel::{NAMES_PER_SCOPE, array_of};
@@ -54,13 +55,18 @@ pub(super) fn parts(
     let outputs = &compiled.program.outputs;
     let elements = elements_by_last_name(writer, outputs, named);
     let arguments = compiled.method.arguments().iter();
-    let mut arguments: Vec<Ident> = arguments
-        .map(|argument| format_ident!("{}", argument.name()))
-        .collect();
+    let (arguments, lengths): (Vec<Ident>, Vec<usize>) = arguments
+        .map(|argument| (argument.name(), argument.length(joints)))
+        .chain([("payload", Payload::PARAMETERS)])
+        .map(|(name, length)| (format_ident!("{name}"), length))
+        .unzip();
     let (parts, slots) = divide(writer, &arguments, named, &elements, LENGTH);
-    arguments.retain(|argument| parts.iter().any(|part| part.arguments.contains(argument)));
+    let read = arguments.into_iter().zip(lengths);
+    let (arguments, lengths): (Vec<Ident>, Vec<Literal>) = read
+        .filter(|(argument, _)| parts.iter().any(|part| part.arguments.contains(argument)))
+        .map(|(argument, length)| (argument, Literal::usize_unsuffixed(length)))
+        .unzip();
 
-    let length = Literal::usize_unsuffixed(joints);
     let shared = Literal::usize_unsuffixed(slots.len());
     let fields: Vec<Ident> = outputs
         .iter()
@@ -81,7 +87,7 @@ pub(super) fn parts(
     let angles = angles.filter_map(|name| share(&slots, &name));
     quote! {
         struct State<R> {
-            #(#arguments: [R; #length],)*
+            #(#arguments: [R; #lengths],)*
             shared: [R; #shared],
             #(#fields: #types,)*
         }
@@ -233,6 +239,10 @@ mod tests {
         for method in crate::compile(&model).methods {
             let writer = Writer::new(&method.program);
             let (named, steps) = (writer.named(), writer.named_steps());
+            // What the arm has none of takes no steps, and is not divided.
+            if named.is_empty() {
+                continue;
+            }
             let elements = elements_by_last_name(&writer, &method.program.outputs, &named);
             let arguments = Argument::ALL.map(|argument| format_ident!("{}", argument.name()));
             let (parts, slots) = divide(&writer, &arguments, &named, &elements, 20);

@@ -4,7 +4,7 @@ use ulna::{Joint, JointKind, Link};
 use ulna_table::Model;
 
 use super::vector::{Sym3, Turn, Vec3};
-use crate::graph::{Expr, Graph};
+use crate::graph::{Expr, Graph, Input};
 
 /// The ten inertial parameters of a rigid body about the origin of its frame.
 #[derive(Clone, Copy, Debug)]
@@ -17,15 +17,32 @@ pub struct Body<'g> {
     pub inertia: Sym3<'g>,
 }
 
+/// Each link's parameters; the last one's together with those of what it carries at run time.
+pub(crate) fn links<'g>(graph: &'g Graph, model: &Model) -> Vec<Body<'g>> {
+    let joints = model.joints().iter();
+    let mut links: Vec<_> = joints
+        .map(|joint| Body::of_link(graph, &joint.link))
+        .collect();
+    if model.has_payload()
+        && let Some(last) = links.last_mut()
+    {
+        *last = last.join(Body::payload(graph));
+    }
+    links
+}
+
 /// The links' parameters, regrouped to the base (minimal) parameters of each joint
 /// (Gautier and Khalil 1990; Khalil and Dombre, Modeling, Identification and Control of Robots, section 9.4).
 ///
 /// What a revolute joint's turning cannot change (mass, first moment along the axis, and as much of the inertia
 /// as is round about it) is counted with the link before; likewise the whole inertia tensor behind a prismatic joint.
 /// M and τ stay the same, and many constants become zero. What reaches the base is dropped.
-pub(crate) fn base_parameters<'g>(graph: &'g Graph, model: &Model) -> Vec<Body<'g>> {
-    let links = model.joints().iter().map(|joint| &joint.link);
-    let mut bodies: Vec<Body<'g>> = links.map(|link| Body::of_link(graph, link)).collect();
+pub(crate) fn base_parameters<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    links: &[Body<'g>],
+) -> Vec<Body<'g>> {
+    let mut bodies = links.to_vec();
     for (i, joint) in model.joints().iter().enumerate().rev() {
         let passed = indifferent_part(joint, &bodies[i]);
         bodies[i] = bodies[i].join(passed.scale(graph.constant(-1.0)));
@@ -74,6 +91,17 @@ impl<'g> Body<'g> {
             inertia: Sym3::constant(graph, &link.inertia),
         };
         at_centroid.shift(Vec3::constant(graph, link.com))
+    }
+
+    /// The payload that is an argument, about the origin of the last link's frame.
+    fn payload(graph: &'g Graph) -> Self {
+        let [mass, x, y, z, xx, yy, zz, xy, xz, yz] =
+            std::array::from_fn(|i| graph.input(Input::Payload(i)));
+        Self {
+            mass,
+            moment: Vec3([x, y, z]),
+            inertia: Sym3([xx, yy, zz, xy, xz, yz]),
+        }
     }
 
     /// Every parameter times `factor`.

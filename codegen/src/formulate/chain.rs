@@ -7,10 +7,10 @@
 
 use std::ops::Range;
 
-use ulna::{Angle, JointKind, Motor, Placement, TaskRows};
+use ulna::{Angle, Friction, JointKind, Motor, Placement, TaskRows};
 use ulna_table::Model;
 
-use super::body::{Body, base_parameters};
+use super::body::{Body, base_parameters, links};
 use super::vector::{Turn, Vec3, quarter_turns};
 use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Input};
@@ -31,6 +31,8 @@ pub struct ChainJoint<'g> {
     pub link: Body<'g>,
     /// What the joint's rotor adds to its entry of M, as far as the link has it not among its constants.
     pub reflected: Expr<'g>,
+    /// Its friction.
+    pub friction: Friction,
 }
 
 /// Joints about parallel axes.
@@ -78,13 +80,9 @@ pub struct Chain<'g> {
 impl<'g> Chain<'g> {
     /// Lays the model out on the graph.
     pub fn new(graph: &'g Graph, model: &Model) -> Self {
-        let mut bodies = base_parameters(graph, model);
-        let mut links: Vec<Body<'g>> = model
-            .joints()
-            .iter()
-            .map(|joint| Body::of_link(graph, &joint.link))
-            .collect();
-        let rotors = rotors(graph, model, [&mut bodies, &mut links]);
+        let mut links = links(graph, model);
+        let rotors = rotors(graph, model, &mut links);
+        let bodies = base_parameters(graph, model, &links);
         let groups: Vec<Group<'g>> = parallel_runs(model)
             .into_iter()
             .map(|joints| Group {
@@ -103,20 +101,20 @@ impl<'g> Chain<'g> {
                 body: bodies[i],
                 link: links[i],
                 reflected: rotors[i],
+                friction: model.joints()[i].friction,
             })
             .collect();
-        let world_from_base = model.base().rotation;
-        Self {
+        let mut chain = Self {
             graph,
             joints,
             groups,
             base: *model.base(),
             tool: *model.tool(),
-            gravity: Vec3::constant(graph, model.gravity()).rotate(std::array::from_fn(|j| {
-                std::array::from_fn(|i| world_from_base[i][j])
-            })),
+            gravity: Vec3::constant(graph, model.gravity()),
             task: model.task(),
-        }
+        };
+        chain.gravity = chain.of_world(chain.gravity);
+        chain
     }
 
     /// How many joints there are.
@@ -131,6 +129,14 @@ impl<'g> Chain<'g> {
             .iter()
             .position(is_in)
             .unwrap_or(self.groups.len())
+    }
+
+    /// A vector of world axes, in base axes.
+    pub fn of_world(&self, v: Vec3<'g>) -> Vec3<'g> {
+        let world_from_base = self.base.rotation;
+        v.rotate(std::array::from_fn(|j| {
+            std::array::from_fn(|i| world_from_base[i][j])
+        }))
     }
 
     /// The zero vector.
@@ -154,20 +160,14 @@ impl<'g> Chain<'g> {
 /// What the rotors add to M's diagonal.
 ///
 /// The first link of an arm turns about one axis only, that of its rotor's gears: a rotor there is one with the link, and costs nothing.
-fn rotors<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    constants: [&mut Vec<Body<'g>>; 2],
-) -> Vec<Expr<'g>> {
+fn rotors<'g>(graph: &'g Graph, model: &Model, links: &mut [Body<'g>]) -> Vec<Expr<'g>> {
     let joints = model.joints().iter();
     let mut rotors: Vec<Expr<'g>> = joints
         .map(|joint| reflected_inertia(graph, &joint.motor))
         .collect();
     if model.joints()[0].kind == JointKind::Revolute {
-        for bodies in constants {
-            let inertia = &mut bodies[0].inertia.0[2];
-            *inertia = *inertia + rotors[0];
-        }
+        let about_axis = &mut links[0].inertia.0[2];
+        *about_axis = *about_axis + rotors[0];
         rotors[0] = graph.constant(0.0);
     }
     rotors

@@ -8,8 +8,9 @@ use ulna::JointKind;
 
 use super::body::Body;
 use super::chain::Chain;
+use super::kinematics::express;
 use super::vector::Vec3;
-use crate::graph::Expr;
+use crate::graph::{Expr, Input};
 
 /// Motion of a link.
 #[derive(Clone, Copy)]
@@ -45,15 +46,27 @@ fn times<'g>(rows: &[Vec3<'g>; 3], v: Vec3<'g>) -> Vec3<'g> {
     Vec3(rows.map(|row| row.dot(v)))
 }
 
+/// Force and moment.
+pub(crate) type Wrench<'g> = (Vec3<'g>, Vec3<'g>);
+
 /// τ for velocities `qd` and accelerations `qdd`, without friction; zeros fold, so that gravity alone or bias alone costs what it needs.
 pub(crate) fn inverse_dynamics<'g>(
     chain: &Chain<'g>,
     qd: &[Expr<'g>],
     qdd: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
+    inverse_dynamics_with_load(chain, qd, qdd, (chain.zero(), chain.zero()))
+}
+
+/// The same where the last link also bears `load`, about its joint's origin, in its group's axes.
+pub(crate) fn inverse_dynamics_with_load<'g>(
+    chain: &Chain<'g>,
+    qd: &[Expr<'g>],
+    qdd: &[Expr<'g>],
+    load: Wrench<'g>,
+) -> Vec<Expr<'g>> {
     let motions = outward(chain, qd, qdd);
-    let zero = chain.zero();
-    let (mut force, mut moment) = (zero, zero);
+    let (mut force, mut moment) = load;
     let mut torques = vec![chain.graph.constant(0.0); chain.joint_count()];
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
@@ -75,6 +88,16 @@ pub(crate) fn inverse_dynamics<'g>(
         }
     }
     torques
+}
+
+/// What the last link bears because the argument `wrench` acts on the tool: about the last joint's origin, in its group's axes.
+pub(crate) fn load_of_wrench<'g>(chain: &Chain<'g>) -> Wrench<'g> {
+    let [fx, fy, fz, nx, ny, nz] = std::array::from_fn(|i| -chain.graph.input(Input::Wrench(i)));
+    let groups = chain.groups.len();
+    let in_last = |v: Vec3<'g>| express(chain, chain.of_world(v), 0, groups);
+    let (force, moment) = (in_last(Vec3([fx, fy, fz])), in_last(Vec3([nx, ny, nz])));
+    let to_tool = Vec3::constant(chain.graph, chain.tool.translation);
+    (force, moment + to_tool.cross(force))
 }
 
 /// The links' motions, base first, each in its group's axes.
@@ -113,7 +136,7 @@ fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Moti
 
 /// Force and moment about the origin that a body's motion takes:
 /// f = m a + Λ h, n = I α + ω × I ω + h × a; the middle terms of n written with the products that Λ has already.
-fn wrench<'g>(body: &Body<'g>, motion: &Motion<'g>) -> (Vec3<'g>, Vec3<'g>) {
+fn wrench<'g>(body: &Body<'g>, motion: &Motion<'g>) -> Wrench<'g> {
     let lambda @ [
         Vec3([lxx, lxy, lxz]),
         Vec3([lyx, lyy, lyz]),

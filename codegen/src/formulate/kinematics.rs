@@ -76,7 +76,7 @@ fn own_twists<'g>(chain: &Chain<'g>) -> Vec<Twist<'g>> {
 }
 
 /// A vector of the axes of group `from`, in the axes of group `to`; 0 stands for the base, 1 for the first group.
-fn express<'g>(chain: &Chain<'g>, v: Vec3<'g>, from: usize, to: usize) -> Vec3<'g> {
+pub(super) fn express<'g>(chain: &Chain<'g>, v: Vec3<'g>, from: usize, to: usize) -> Vec3<'g> {
     let (down, up) = (to.min(from)..from, from.min(to)..to);
     let lowered = down.rev().fold(v, |v, g| chain.groups[g].to_parent(v));
     up.fold(lowered, |v, g| chain.groups[g].of_parent(v))

@@ -92,10 +92,20 @@ fn settle<A: Unrolled<N>, R: Lanes, T: Quantity, const N: usize>(
     }
 }
 
+/// An argument of as many states as lanes.
+macro_rules! gather {
+    ($arm:ident, $lanes:ident, q $q:expr) => {
+        gather_coordinates::<$arm, $lanes, N>($q)
+    };
+    ($arm:ident, $lanes:ident, $argument:ident $vectors:expr) => {
+        gather::<$lanes, _>($vectors)
+    };
+}
+
 macro_rules! define_batches {
     ([] $(
         $(#[$doc:meta])*
-        $variant:ident = $method:ident($q:ident $(, $other:ident)*) -> $output:ty
+        $variant:ident = $method:ident($first:ident $(, $other:ident)*) -> $output:ty
         { kernel $returns:literal $kernel:ident -> $returned:ty $(, zero from $zero:literal)? }
         { batch $batch:ident from $width:literal }
         $({ $($rest:tt)* })*
@@ -109,19 +119,29 @@ macro_rules! define_batches {
                 #[doc = concat!("[`Arm::", stringify!($method), "`] for each state.")]
                 ///
                 /// # Errors
-                /// A slice that is not as long as `q`; nothing is written then.
-                fn $batch(&self, $q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch>;
+                /// A slice that is not as long as the first; nothing is written then.
+                fn $batch(
+                    &self,
+                    $first: &[$crate::argument_type!([N] $first)],
+                    $($other: &[$crate::argument_type!([N] $other)],)*
+                    out: &mut [$output],
+                ) -> Result<(), LengthMismatch>;
             )+
         }
 
         /// One by one.
         impl<const N: usize> ArmBatch<N> for SerialChain<N> {
             $(
-                fn $batch(&self, $q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
-                    $(lengths::check($q.len(), stringify!($other), $other.len())?;)*
-                    lengths::check($q.len(), "out", out.len())?;
+                fn $batch(
+                    &self,
+                    $first: &[$crate::argument_type!([N] $first)],
+                    $($other: &[$crate::argument_type!([N] $other)],)*
+                    out: &mut [$output],
+                ) -> Result<(), LengthMismatch> {
+                    $(lengths::check($first.len(), stringify!($other), $other.len())?;)*
+                    lengths::check($first.len(), "out", out.len())?;
                     for (i, out) in out.iter_mut().enumerate() {
-                        *out = self.$method(&$q[i] $(, &$other[i])*);
+                        *out = self.$method(&$first[i] $(, &$other[i])*);
                     }
                     Ok(())
                 }
@@ -131,11 +151,16 @@ macro_rules! define_batches {
         /// In lanes where they are worth it.
         impl<A: Unrolled<N> + Arm<N>, const N: usize> ArmBatch<N> for A {
             $(
-                fn $batch(&self, $q: &[SVector<f64, N>], $($other: &[SVector<f64, N>],)* out: &mut [$output]) -> Result<(), LengthMismatch> {
+                fn $batch(
+                    &self,
+                    $first: &[$crate::argument_type!([N] $first)],
+                    $($other: &[$crate::argument_type!([N] $other)],)*
+                    out: &mut [$output],
+                ) -> Result<(), LengthMismatch> {
                     struct Run<'a, A, const N: usize> {
                         arm: &'a A,
-                        $q: &'a [SVector<f64, N>],
-                        $($other: &'a [SVector<f64, N>],)*
+                        $first: &'a [$crate::argument_type!([N] $first)],
+                        $($other: &'a [$crate::argument_type!([N] $other)],)*
                         out: &'a mut [$output],
                     }
                     impl<A: Unrolled<N> + Arm<N>, const N: usize> BatchCall for Run<'_, A, N> {
@@ -145,16 +170,16 @@ macro_rules! define_batches {
                         fn in_lanes<R: Lanes>(&mut self, states: Range<usize>) {
                             for start in states.clone().step_by(R::WIDTH) {
                                 let start = start.min(states.end - R::WIDTH);
-                                let $q = gather_coordinates::<A, R, N>(&self.$q[start..][..R::WIDTH]);
-                                $(let $other = gather::<R, N>(&self.$other[start..][..R::WIDTH]);)*
+                                let $first = gather!(A, R, $first &self.$first[start..][..R::WIDTH]);
+                                $(let $other = gather!(A, R, $other &self.$other[start..][..R::WIDTH]);)*
                                 let out = &mut self.out[start..][..R::WIDTH];
-                                let returned: $returned = A::$kernel::<R>(&$q $(, &$other)*);
+                                let returned: $returned = self.arm.$kernel::<R>(&$first $(, &$other)*);
                                 for part in 0..<$output>::PARTS {
                                     scatter::<R, _>(returned.part(part), part, out);
                                 }
                                 $(
                                     let volume_squared = returned.part(<$output>::PARTS)[0];
-                                    settle::<A, R, _, N>(&$q, volume_squared, $zero, out);
+                                    settle::<A, R, _, N>(&$first, volume_squared, $zero, out);
                                 )?
                             }
                         }
@@ -162,14 +187,14 @@ macro_rules! define_batches {
                         #[inline]
                         fn one_by_one(&mut self, states: Range<usize>) {
                             for i in states {
-                                self.out[i] = self.arm.$method(&self.$q[i] $(, &self.$other[i])*);
+                                self.out[i] = self.arm.$method(&self.$first[i] $(, &self.$other[i])*);
                             }
                         }
                     }
-                    $(lengths::check($q.len(), stringify!($other), $other.len())?;)*
-                    lengths::check($q.len(), "out", out.len())?;
-                    let states = $q.len();
-                    simd::run_batch(&mut Run { arm: self, $q, $($other,)* out }, states);
+                    $(lengths::check($first.len(), stringify!($other), $other.len())?;)*
+                    lengths::check($first.len(), "out", out.len())?;
+                    let states = $first.len();
+                    simd::run_batch(&mut Run { arm: self, $first, $($other,)* out }, states);
                     Ok(())
                 }
             )+

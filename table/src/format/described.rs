@@ -2,7 +2,9 @@
 //!
 //! Nobody writes it by hand, and no reference prints it.
 
-use super::{ANGLE_UNIT, BASE_XYZ, CONVENTION, GRAVITY, JOINTS, NAME, NOTHING, TASK, TOOL_XYZ};
+use super::{
+    ANGLE_UNIT, BASE_XYZ, CONVENTION, GRAVITY, JOINTS, NAME, NOTHING, PAYLOAD, TASK, TOOL_XYZ,
+};
 use crate::toml_reader::{Key, Kind, Need, Section};
 
 /// The keys before the first header.
@@ -18,6 +20,7 @@ pub(crate) static DESCRIPTION: Section = Section {
         &TASK,
         &DESCRIBED_BASE,
         &DESCRIBED_TOOL,
+        &PAYLOAD,
         &JOINTS,
     ],
 };

@@ -47,6 +47,7 @@ pub(crate) static TABLE: Section = Section {
         &TASK,
         &BASE,
         &TOOL,
+        &PAYLOAD,
         &JOINTS,
     ],
 };
@@ -89,6 +90,13 @@ pub(crate) static TASK: Key = Key::required(
 );
 pub(crate) static BASE: Key = placed("base", &BASE_SECTION, "Where the arm stands");
 pub(crate) static TOOL: Key = placed("tool", &TOOL_SECTION, "Where the tool point is");
+pub(crate) static PAYLOAD: Key = Key::required(
+    "payload",
+    Kind::Table(&PAYLOAD_SECTION),
+    "Whether the tool holds bodies that are known only when the arm moves",
+    "`runtime = true` below a line `[payload]`",
+)
+.need(Need::Optional("the arm's type has no payload"));
 pub(crate) static JOINTS: Key = Key::required(
     "joint",
     Kind::Tables(&JOINT),
@@ -128,6 +136,20 @@ static TOOL_SECTION: Section = Section {
     example: "[tool]\nxyz = [0.5, 0.0, 0.0]\nrpy = [0.0, 0.0, 0.0]\n",
     keys: &[&TOOL_XYZ, &RPY],
 };
+static PAYLOAD_SECTION: Section = Section {
+    header: "[payload]",
+    meaning: "At most once: what is fixed to the tool beside the links of the table",
+    example: "[payload]\nruntime = false\n",
+    keys: &[&RUNTIME],
+};
+pub(crate) static RUNTIME: Key = Key::required(
+    "runtime",
+    Kind::Flag,
+    "With `true` the arm's type holds a payload (mass, centroid, inertia in the tool's frame) that may change between two calls, \
+     and every dynamic method counts it",
+    "`runtime = true`",
+)
+.need(Need::Default(|| "false".to_owned()));
 pub(crate) static BASE_XYZ: Key = xyz(&[Limit::Within(&BASE_LENGTH)]);
 pub(crate) static TOOL_XYZ: Key = xyz(&[Limit::Within(&LENGTH)]);
 pub(crate) static RPY: Key = Key::required(

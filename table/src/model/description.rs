@@ -43,6 +43,8 @@ pub struct Description {
     pub base: Placement,
     /// `frame_N_from_tool`; frame N is that of the last row in the convention above.
     pub tool: Placement,
+    /// Whether the arm has a payload that is known only at run time.
+    pub payload: bool,
     /// The joints, base first, 1 to 32. In standard form `a` and `alpha` are `a_i` and `α_i`, and the link stands in frame i of that form.
     pub joints: Vec<Joint>,
     /// The joints' names, base first, where they have any; those left out at the end have none.
@@ -88,6 +90,7 @@ impl Model {
             task: self.task,
             base: self.base,
             tool: self.tool,
+            payload: self.payload,
             joints: self.joints.clone(),
             joint_names: self.given_names(),
         }

@@ -37,6 +37,7 @@ pub struct Model {
     task: TaskRows,
     base: Placement,
     tool: Placement,
+    payload: bool,
     joints: Vec<Joint>,
     joint_names: Vec<String>,
     table_hash: String,
@@ -150,6 +151,11 @@ impl Model {
     /// `frame_N_from_tool`.
     pub fn tool(&self) -> &Placement {
         &self.tool
+    }
+
+    /// Whether the arm has a payload that is known only at run time ([`ulna::Payload`]).
+    pub fn has_payload(&self) -> bool {
+        self.payload
     }
 
     /// The joints, base first, 1 to 32, in modified form.

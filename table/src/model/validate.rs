@@ -80,6 +80,7 @@ impl ArmTable {
             task: task?,
             base: base?,
             tool,
+            payload: self.payload,
             joints,
             joint_names: joint_names?,
             table_hash: String::new(),

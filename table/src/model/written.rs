@@ -32,6 +32,9 @@ impl fmt::Display for Written<'_> {
             writeln!(text, "xyz = {}", Numbers(placement.translation))?;
             writeln!(text, "rotation = [{x}, {y}, {z}]")?;
         }
+        if arm.payload {
+            writeln!(text, "\n[payload]\nruntime = true")?;
+        }
         arm.joints.iter().enumerate().try_for_each(|(i, joint)| {
             let name = arm.joint_names.get(i).and_then(Option::as_deref);
             write_joint(text, name, joint)

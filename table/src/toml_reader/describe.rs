@@ -20,6 +20,7 @@ impl Kind {
     pub(super) fn describe(&self) -> String {
         match self {
             Self::Text => "a string".to_owned(),
+            Self::Flag => "true or false".to_owned(),
             Self::Number => "a number".to_owned(),
             Self::Whole => "a whole number".to_owned(),
             Self::Numbers(count) => format!("an array of {count} numbers"),

@@ -47,6 +47,8 @@ impl Key {
 /// What a value is.
 pub enum Kind {
     Text,
+    /// `true` or `false`.
+    Flag,
     Number,
     /// Not negative and without a fraction.
     Whole,

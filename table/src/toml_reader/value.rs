@@ -152,6 +152,14 @@ impl<'t> Value<'t> {
         self.error(message, format!("expected {expected}"), help)
     }
 
+    /// `true` or `false`.
+    pub fn flag(self) -> Option<Located<bool>> {
+        match self.value {
+            DeValue::Boolean(flag) => Some(self.located(*flag)),
+            _ => self.expected("true or false"),
+        }
+    }
+
     /// The items of an array; `expected` names it in the message.
     pub fn items(self, expected: &str) -> Option<Vec<Value<'t>>> {
         let DeValue::Array(array) = self.value else {

@@ -51,14 +51,14 @@ pub(crate) fn velocity_products_follow_from_the_mass_matrix<const N: usize>(
         near(&actual, &products, scale, 1e-12, "bias force");
 
         let tau = arm.inverse_dynamics(&q, &qd, &qdd);
-        let power = qd.dot(&(tau - gravity));
+        let power = qd.dot(&(tau - gravity - arm.friction_torque(&qd)));
         let kinetic = qd.dot(&(m * qdd)) + 0.5 * qd.dot(&(rate * qd));
         let scale = tau.amax();
         near([&power], [&kinetic], scale, 1e-12, "power");
     });
 }
 
-/// A fall without torques: the sum of kinetic and potential energy stays, by Runge–Kutta's classical rule.
+/// A fall in which motors do nothing but overcome friction: the sum of kinetic and potential energy stays, by Runge–Kutta's classical rule.
 pub(crate) fn energy_is_conserved<const N: usize>(arm: &impl Arm<N>, chain: &SerialChain<N>) {
     let exponentials = Exponentials::new(chain);
     let energies = |q: &SVector<f64, N>, qd: &SVector<f64, N>| {
@@ -67,8 +67,9 @@ pub(crate) fn energy_is_conserved<const N: usize>(arm: &impl Arm<N>, chain: &Ser
     };
     let State { mut q, mut qd, .. } = states(chain).next().expect("states have no end");
     let (kinetic, potential) = energies(&q, &qd);
-    let free = SVector::zeros();
-    let fall = |q: &SVector<f64, N>, qd: &SVector<f64, N>| arm.forward_dynamics(q, qd, &free);
+    let fall = |q: &SVector<f64, N>, qd: &SVector<f64, N>| {
+        arm.forward_dynamics(q, qd, &arm.friction_torque(qd))
+    };
     let h = 5e-4;
     let mut exchanged = 0.0_f64;
     for _ in 0..200 {
@@ -100,23 +101,67 @@ pub(crate) fn forward_dynamics_undo_inverse_dynamics<const N: usize>(
     arm: &impl Arm<N>,
     chain: &SerialChain<N>,
 ) {
-    at_states(chain, |State { q, qd, qdd, tau }| {
-        let torque = arm.inverse_dynamics(&q, &qd, &qdd);
-        near(
-            &arm.forward_dynamics(&q, &qd, &torque),
-            &qdd,
-            0.0,
-            1e-9,
-            "qdd",
-        );
-        let motion = arm.forward_dynamics(&q, &qd, &tau);
-        let scale = arm.bias_force(&q, &qd).amax();
-        near(
-            &arm.inverse_dynamics(&q, &qd, &motion),
-            &tau,
-            scale,
-            1e-11,
-            "tau",
-        );
-    });
+    at_states(
+        chain,
+        |State {
+             q,
+             qd,
+             qdd,
+             tau,
+             wrench,
+         }| {
+            let torque = arm.inverse_dynamics(&q, &qd, &qdd);
+            near(
+                &arm.forward_dynamics(&q, &qd, &torque),
+                &qdd,
+                0.0,
+                1e-9,
+                "qdd",
+            );
+            let motion = arm.forward_dynamics(&q, &qd, &tau);
+            let scale = arm.bias_force(&q, &qd).amax() + arm.friction_torque(&qd).amax();
+            near(
+                &arm.inverse_dynamics(&q, &qd, &motion),
+                &tau,
+                scale,
+                1e-11,
+                "tau",
+            );
+            let torque = arm.inverse_dynamics_with_wrench(&q, &qd, &qdd, &wrench);
+            near(
+                &arm.forward_dynamics_with_wrench(&q, &qd, &torque, &wrench),
+                &qdd,
+                0.0,
+                1e-9,
+                "qdd with a wrench",
+            );
+        },
+    );
+}
+
+/// Principle of virtual work: what a wrench on the tool takes off the motors' power is its own, F · J q̇ for any rates.
+pub(crate) fn a_wrench_does_the_work_of_the_tool<const N: usize>(
+    arm: &impl Arm<N>,
+    chain: &SerialChain<N>,
+) {
+    at_states(
+        chain,
+        |State {
+             q,
+             qd,
+             qdd,
+             tau,
+             wrench,
+         }| {
+            let without = arm.inverse_dynamics(&q, &qd, &qdd);
+            let with = arm.inverse_dynamics_with_wrench(&q, &qd, &qdd, &wrench);
+            let twist = arm.geometric_jacobian(&q) * tau;
+            let (power, expected) = ((without - with).dot(&tau), wrench.dot(&twist));
+            let size = without.abs().dot(&tau.abs()) + wrench.abs().dot(&twist.abs());
+            assert!(
+                (power - expected).abs() <= 1e-13 * size,
+                "{power} for {expected}"
+            );
+        },
+    );
 }

@@ -70,5 +70,7 @@ fn operand(operand: Operand) -> Value {
         Operand::Input(Input::Qd(i)) => json!(["qd", i]),
         Operand::Input(Input::Qdd(i)) => json!(["qdd", i]),
         Operand::Input(Input::Tau(i)) => json!(["tau", i]),
+        Operand::Input(Input::Wrench(i)) => json!(["wrench", i]),
+        Operand::Input(Input::Payload(i)) => json!(["payload", i]),
     }
 }
