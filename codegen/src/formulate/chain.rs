@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use ulna::{Angle, JointKind, Motor, Placement, TaskRows};
+use ulna::{Angle, Friction, JointKind, Motor, Placement, TaskRows};
 use ulna_table::Model;
 
 use super::body::{Body, add_to_last, base_parameters};
@@ -31,6 +31,8 @@ pub struct ChainJoint<'g> {
     pub link: Body<'g>,
     /// What the joint's rotor adds to its entry of M, as far as the link has it not among its constants.
     pub reflected: Expr<'g>,
+    /// Its friction.
+    pub friction: Friction,
 }
 
 /// Joints about parallel axes.
@@ -82,6 +84,7 @@ impl<'g> Chain<'g> {
         let mut links: Vec<Body<'g>> = joints
             .map(|joint| Body::of_link(graph, &joint.link))
             .collect();
+        let rotors = rotors(graph, model, &mut links);
         let mut bodies = base_parameters(graph, model, &links);
         // Regrouping the payload's parameters takes more operations than it saves: they are no numbers yet.
         if model.has_payload() {
@@ -89,7 +92,6 @@ impl<'g> Chain<'g> {
                 add_to_last(bodies, Body::payload(graph));
             }
         }
-        let rotors = rotors(graph, model, [&mut bodies, &mut links]);
         let groups: Vec<Group<'g>> = parallel_runs(model)
             .into_iter()
             .map(|joints| Group {
@@ -108,6 +110,7 @@ impl<'g> Chain<'g> {
                 body: bodies[i],
                 link: links[i],
                 reflected: rotors[i],
+                friction: model.joints()[i].friction,
             })
             .collect();
         let mut chain = Self {
@@ -166,20 +169,14 @@ impl<'g> Chain<'g> {
 /// What the rotors add to M's diagonal.
 ///
 /// The first link of an arm turns about one axis only, that of its rotor's gears: a rotor there is one with the link, and costs nothing.
-fn rotors<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    constants: [&mut Vec<Body<'g>>; 2],
-) -> Vec<Expr<'g>> {
+fn rotors<'g>(graph: &'g Graph, model: &Model, links: &mut [Body<'g>]) -> Vec<Expr<'g>> {
     let joints = model.joints().iter();
     let mut rotors: Vec<Expr<'g>> = joints
         .map(|joint| reflected_inertia(graph, &joint.motor))
         .collect();
     if model.joints()[0].kind == JointKind::Revolute {
-        for bodies in constants {
-            let inertia = &mut bodies[0].inertia.0[2];
-            *inertia = *inertia + rotors[0];
-        }
+        let about_axis = &mut links[0].inertia.0[2];
+        *about_axis = *about_axis + rotors[0];
         rotors[0] = graph.constant(0.0);
     }
     rotors

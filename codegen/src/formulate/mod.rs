@@ -7,6 +7,7 @@ pub(crate) mod articulated;
 pub(crate) mod body;
 pub(crate) mod chain;
 pub(crate) mod factorization;
+pub(crate) mod friction;
 pub(crate) mod inverse_dynamics;
 pub(crate) mod kinematics;
 pub(crate) mod manipulability;
@@ -18,6 +19,7 @@ pub(crate) mod vector;
 use ulna::Method;
 
 use self::chain::Chain;
+use self::friction::{friction, with_friction};
 use self::inverse_dynamics::{
     Wrench, inverse_dynamics, inverse_dynamics_with_load, load_of_wrench,
 };
@@ -78,17 +80,25 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
         Method::DynamicManipulabilityGradient => manipulability_and_gradient(chain, choices),
         Method::InverseDynamics => {
             let (qd, qdd) = (chain.inputs(Input::Qd), chain.inputs(Input::Qdd));
-            vec![torque(chain, &qd, &qdd)]
+            let torque = inverse_dynamics(chain, &qd, &qdd);
+            vec![torques(chain, with_friction(chain, &qd, torque))]
         }
-        Method::BiasForce => vec![torque(chain, &chain.inputs(Input::Qd), &zeros(chain))],
-        Method::GravityTorque => vec![torque(chain, &zeros(chain), &zeros(chain))],
+        Method::BiasForce => {
+            let bias = inverse_dynamics(chain, &chain.inputs(Input::Qd), &zeros(chain));
+            vec![torques(chain, bias)]
+        }
+        Method::GravityTorque => {
+            let gravity = inverse_dynamics(chain, &zeros(chain), &zeros(chain));
+            vec![torques(chain, gravity)]
+        }
         Method::ForwardDynamics => forward_dynamics(chain, unloaded(chain)),
         Method::InverseDynamicsWithWrench => {
             let (qd, qdd) = (chain.inputs(Input::Qd), chain.inputs(Input::Qdd));
             let torque = inverse_dynamics_with_load(chain, &qd, &qdd, load_of_wrench(chain));
-            vec![Output::new("torque", &[chain.joint_count()], torque)]
+            vec![torques(chain, with_friction(chain, &qd, torque))]
         }
         Method::ForwardDynamicsWithWrench => forward_dynamics(chain, load_of_wrench(chain)),
+        Method::FrictionTorque => vec![torques(chain, friction(chain, &chain.inputs(Input::Qd)))],
         Method::MassMatrixAndDerivatives => vec![mass(chain), derivatives_of_mass(chain)],
         Method::JacobianAndGradient => {
             let mut outputs = vec![jacobian(chain, choices)];
@@ -146,8 +156,7 @@ fn inverse_mass<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
     Output::new("inverse", &[n, n], factors.inverse().concat())
 }
 
-fn torque<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Output<Expr<'g>> {
-    let elements = inverse_dynamics(chain, qd, qdd);
+fn torques<'g>(chain: &Chain<'g>, elements: Vec<Expr<'g>>) -> Output<Expr<'g>> {
     Output::new("torque", &[chain.joint_count()], elements)
 }
 
@@ -158,6 +167,7 @@ fn unloaded<'g>(chain: &Chain<'g>) -> Wrench<'g> {
 fn forward_dynamics<'g>(chain: &Chain<'g>, load: Wrench<'g>) -> Outputs<'g> {
     let qd = chain.inputs(Input::Qd);
     let bias = inverse_dynamics_with_load(chain, &qd, &zeros(chain), load);
+    let bias = with_friction(chain, &qd, bias);
     let driving = chain.inputs(Input::Tau).into_iter().zip(bias);
     let driving: Vec<Expr<'g>> = driving.map(|(tau, bias)| tau - bias).collect();
     let elements = factorization::factor(&mass_matrix(chain)).solve(&driving);
