@@ -18,8 +18,15 @@ const fn joint(kind: JointKind, a: f64) -> Joint {
         d: 0.4,
         rated_torque: Some(10.0),
         limits: Limits::NONE,
-        motor: Motor::NONE,
-        friction: Friction::NONE,
+        motor: Motor {
+            inertia: 1e-4,
+            ratio: 80.0,
+        },
+        friction: Friction {
+            viscous: 0.5,
+            coulomb: 2.0,
+            ..Friction::NONE
+        },
         link: Link {
             mass: 2.0,
             com: [0.1, 0.2, -0.3],

@@ -49,7 +49,13 @@ fn configurations(model: &Model) -> Vec<Vec<f64>> {
 
 #[test]
 fn articulated_bodies_lead_to_the_same_gradient() {
-    for arm in ["planar_2r", "ssrms", "oblique_6", "table1_literal"] {
+    for arm in [
+        "planar_2r",
+        "ssrms",
+        "oblique_6",
+        "table1_literal",
+        "geared_6",
+    ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../arms/{arm}.toml"));
         let model = Model::load(path).unwrap_or_else(|errors| panic!("{errors}"));
         let (by_mass, by_bodies) = (gradient(&model, false), gradient(&model, true));

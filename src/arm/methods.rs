@@ -56,7 +56,8 @@ macro_rules! methods {
             { batch jacobian_derivatives_batch from 4 }
             { error twist_derivatives }
 
-            /// Mass matrix M of `τ = M q̈ + c(q, q̇) + g(q)`: N×N, full and symmetric, kg·m².
+            /// Mass matrix M of `τ = M q̈ + c(q, q̇) + g(q)`, N×N, full and symmetric, kg·m²: that of the links, and on its diagonal what the
+            /// [rotors](crate::Motor) behind their gears add.
             MassMatrix = mass_matrix(q) -> $crate::nalgebra::SMatrix<f64, $n, $n>
             { kernel "Mass matrix, N×N, kg·m²."
               mass_matrix_kernel -> [[R; $n]; $n] }
@@ -93,14 +94,14 @@ macro_rules! methods {
             { batch dynamic_manipulability_gradient_batch from 2 }
             { error gradient }
 
-            /// Inverse dynamics τ = M q̈ + c(q, q̇) + g(q), N·m, without a tool wrench.
+            /// Inverse dynamics τ = M q̈ + c(q, q̇) + g(q) + f(q̇), N·m, f the joints' friction; without a tool wrench.
             InverseDynamics = inverse_dynamics(q, qd, qdd) -> $crate::nalgebra::SVector<f64, $n>
             { kernel "Joint torques, N·m, for the accelerations `qdd`."
               inverse_dynamics_kernel -> [R; $n] }
             { batch inverse_dynamics_batch from 2 }
             { error torques }
 
-            /// Bias force c(q, q̇) + g(q): the inverse dynamics at q̈ = 0.
+            /// Bias force c(q, q̇) + g(q): the inverse dynamics at q̈ = 0, without friction.
             BiasForce = bias_force(q, qd) -> $crate::nalgebra::SVector<f64, $n>
             { kernel "Joint torques, N·m, at zero acceleration."
               bias_force_kernel -> [R; $n] }
@@ -114,14 +115,14 @@ macro_rules! methods {
             { batch gravity_torque_batch from 2 }
             { error torques_at_rest }
 
-            /// Forward dynamics q̈ = M⁻¹(τ − c(q, q̇) − g(q)), without a tool wrench.
+            /// Forward dynamics q̈ = M⁻¹(τ − c(q, q̇) − g(q) − f(q̇)), f the joints' friction; without a tool wrench.
             ForwardDynamics = forward_dynamics(q, qd, tau) -> $crate::nalgebra::SVector<f64, $n>
             { kernel "Joint accelerations, rad/s², under the torques `tau`."
               forward_dynamics_kernel -> [R; $n] }
             { batch forward_dynamics_batch from 2 }
             { error accelerations }
 
-            /// Inverse dynamics with a wrench: τ = M q̈ + c(q, q̇) + g(q) − Jᵀ F, N·m.
+            /// Inverse dynamics with a wrench: τ = M q̈ + c(q, q̇) + g(q) + f(q̇) − Jᵀ F, N·m.
             ///
             /// F = `[f; n]` is what the environment exerts on the tool, at the tool point, in world axes, N and N·m.
             InverseDynamicsWithWrench = inverse_dynamics_with_wrench(q, qd, qdd, wrench) -> $crate::nalgebra::SVector<f64, $n>
@@ -130,7 +131,7 @@ macro_rules! methods {
             { batch inverse_dynamics_with_wrench_batch from 2 }
             { error torques_with_wrench }
 
-            /// Forward dynamics with a wrench: q̈ = M⁻¹(τ + Jᵀ F − c(q, q̇) − g(q)).
+            /// Forward dynamics with a wrench: q̈ = M⁻¹(τ + Jᵀ F − c(q, q̇) − g(q) − f(q̇)).
             ///
             /// F = `[f; n]` is what the environment exerts on the tool, at the tool point, in world axes, N and N·m.
             ForwardDynamicsWithWrench = forward_dynamics_with_wrench(q, qd, tau, wrench) -> $crate::nalgebra::SVector<f64, $n>
@@ -138,6 +139,15 @@ macro_rules! methods {
               forward_dynamics_with_wrench_kernel -> [R; $n] }
             { batch forward_dynamics_with_wrench_batch from 2 }
             { error accelerations_with_wrench }
+
+            /// Friction torque f(q̇), N·m: `viscous · q̇_i + coulomb · q̇_i / √(q̇_i² + smoothing²)` of each joint's [`Friction`](crate::Friction).
+            ///
+            /// Inverse and forward dynamics have it in them, and nothing else has.
+            FrictionTorque = friction_torque(qd) -> $crate::nalgebra::SVector<f64, $n>
+            { kernel "Joint torques, N·m, that friction takes at the rates `qd`."
+              friction_torque_kernel -> [R; $n] }
+            { batch friction_torque_batch from 2 }
+            { error frictions }
 
             /// M and all ∂M/∂q_i in one call.
             MassMatrixAndDerivatives = mass_matrix_and_derivatives(q)

@@ -1,5 +1,8 @@
 //! Friction in the joints.
 
+use nalgebra::SVector;
+
+use super::SerialChain;
 use crate::{Friction, Real};
 
 impl Friction {
@@ -8,5 +11,12 @@ impl Friction {
     pub fn torque(&self, qd: f64) -> f64 {
         let smoothed = Real::sqrt(qd * qd + self.smoothing * self.smoothing);
         self.viscous * qd + self.coulomb * (qd / smoothed)
+    }
+}
+
+impl<const N: usize> SerialChain<N> {
+    /// That of each joint at the rates `qd`.
+    pub(super) fn friction(&self, qd: &SVector<f64, N>) -> SVector<f64, N> {
+        SVector::from_fn(|i, _| self.joints[i].friction.torque(qd[i]))
     }
 }

@@ -96,15 +96,11 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         qd: &SVector<f64, N>,
         qdd: &SVector<f64, N>,
     ) -> SVector<f64, N> {
-        let loads = self.joint_loads(q, qd, qdd);
-        SVector::from_fn(|i, _| {
-            let joint = &self.joints[i];
-            loads[i].along_axis(joint.kind) + joint.motor.reflected_inertia() * qdd[i]
-        })
+        self.frictionless_torque(q, qd, qdd) + self.friction(qd)
     }
 
     fn bias_force(&self, q: &SVector<f64, N>, qd: &SVector<f64, N>) -> SVector<f64, N> {
-        self.inverse_dynamics(q, qd, &SVector::zeros())
+        self.frictionless_torque(q, qd, &SVector::zeros())
     }
 
     fn gravity_torque(&self, q: &SVector<f64, N>) -> SVector<f64, N> {
@@ -117,7 +113,8 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         qd: &SVector<f64, N>,
         tau: &SVector<f64, N>,
     ) -> SVector<f64, N> {
-        mass_matrix::factor(self.mass_matrix(q)).solve(&(tau - self.bias_force(q, qd)))
+        let driving = tau - self.bias_force(q, qd) - self.friction(qd);
+        mass_matrix::factor(self.mass_matrix(q)).solve(&driving)
     }
 
     fn inverse_dynamics_with_wrench(
@@ -140,5 +137,8 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
     ) -> SVector<f64, N> {
         let torque_of_wrench = self.geometric_jacobian(q).tr_mul(wrench);
         self.forward_dynamics(q, qd, &(tau + torque_of_wrench))
+    }
+    fn friction_torque(&self, qd: &SVector<f64, N>) -> SVector<f64, N> {
+        self.friction(qd)
     }
 }

@@ -26,6 +26,20 @@ impl JointLoad {
 }
 
 impl<const N: usize> SerialChain<N> {
+    /// What the motors bear of these loads, and what their own rotors take (Siciliano 7.5, the rotors' gyroscopic terms left out).
+    pub(super) fn frictionless_torque(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        let loads = self.joint_loads(q, qd, qdd);
+        SVector::from_fn(|i, _| {
+            let joint = &self.joints[i];
+            loads[i].along_axis(joint.kind) + joint.motor.reflected_inertia() * qdd[i]
+        })
+    }
+
     /// Force and moment at every joint that the motion `(q, q̇, q̈)` needs under gravity, without a tool wrench:
     /// Craig 6.5, Eq. 6.45–6.53; for a prismatic joint the outward step is Eq. 6.33 and 6.35.
     ///

@@ -156,7 +156,9 @@ impl<'a, const N: usize> Judge<'a, N> {
         found: Vector<N>,
         expected: impl FnOnce() -> Vector<N>,
     ) -> Verdict {
-        self.torques_of(&self.state.qd, &self.state.qdd, found, expected)
+        let State { qd, qdd, .. } = self.state;
+        let sizes = self.scale.torque(qd, qdd) + self.friction();
+        rounded::<N>(Scale::torques(&sizes, &(found - expected())))
     }
 
     pub(super) fn torques_unaccelerated(
@@ -179,7 +181,7 @@ impl<'a, const N: usize> Judge<'a, N> {
     pub(super) fn accelerations(&self, found: Vector<N>, _: impl FnOnce() -> Vector<N>) -> Verdict {
         let State { q, qd, tau, .. } = self.state;
         let needed = self.reference.inverse_dynamics(q, qd, &found);
-        let sizes = self.scale.torque(qd, &found) + tau.abs();
+        let sizes = self.scale.torque(qd, &found) + tau.abs() + self.friction();
         rounded::<N>(Scale::torques(&sizes, &(needed - tau)))
     }
 
@@ -189,7 +191,7 @@ impl<'a, const N: usize> Judge<'a, N> {
         expected: impl FnOnce() -> Vector<N>,
     ) -> Verdict {
         let State { qd, qdd, .. } = self.state;
-        let sizes = self.scale.torque(qd, qdd) + self.torques_of_wrench();
+        let sizes = self.scale.torque(qd, qdd) + self.torques_of_wrench() + self.friction();
         rounded::<N>(Scale::torques(&sizes, &(found - expected())))
     }
 
@@ -205,7 +207,8 @@ impl<'a, const N: usize> Judge<'a, N> {
         let needed = self
             .reference
             .inverse_dynamics_with_wrench(q, qd, &found, wrench);
-        let sizes = self.scale.torque(qd, &found) + tau.abs() + self.torques_of_wrench();
+        let sizes =
+            self.scale.torque(qd, &found) + tau.abs() + self.torques_of_wrench() + self.friction();
         rounded::<N>(Scale::torques(&sizes, &(needed - tau)))
     }
 
@@ -218,6 +221,20 @@ impl<'a, const N: usize> Judge<'a, N> {
             JointKind::Revolute => moment + force * self.scale.length,
             JointKind::Prismatic => force,
         })
+    }
+
+    /// Friction's terms have one sign: each joint's error is relative to its friction.
+    pub(super) fn frictions(
+        &self,
+        found: Vector<N>,
+        expected: impl FnOnce() -> Vector<N>,
+    ) -> Verdict {
+        let expected = expected();
+        rounded::<N>(Scale::torques(&expected.abs(), &(found - expected)))
+    }
+
+    fn friction(&self) -> Vector<N> {
+        self.reference.friction_torque(&self.state.qd).abs()
     }
 
     fn torques_of(

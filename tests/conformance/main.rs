@@ -1,5 +1,6 @@
 //! One suite, every backend, every arm of `arms/`.
 
+mod geared;
 mod paper;
 mod singular;
 mod suite;

@@ -19,6 +19,9 @@ struct Golden {
     bias_force: Vec<f64>,
     gravity_torque: Vec<f64>,
     forward_dynamics: Vec<f64>,
+    /// Of an arm that has friction.
+    #[serde(default)]
+    friction_torque: Option<Vec<f64>>,
 }
 
 /// What rounding may leave, relative to the largest entry of each quantity.
@@ -75,6 +78,10 @@ pub(crate) fn agrees<const N: usize>(backend: &str, name: &str, arm: &impl Arm<N
                 &golden.forward_dynamics,
             ),
         ];
+        let friction = arm.friction_torque(&qd);
+        let none = vec![0.0; N];
+        let expected = golden.friction_torque.as_ref().unwrap_or(&none);
+        errors.record("friction torque", friction.iter().copied(), expected);
         for (quantity, actual, expected) in vectors {
             errors.record(quantity, actual.iter().copied(), expected);
         }

@@ -22,7 +22,7 @@ pub(super) fn lines<'p>(
     // The method's docs link to what their own crate calls `crate`.
     let about = method.documentation().iter();
     let mut lines: Vec<String> = about
-        .map(|line| line.trim_end().replace("[`crate::", "[`ulna::"))
+        .map(|line| line.trim_end().replace("crate::", "ulna::"))
         .collect();
     lines.push(String::new());
     let arguments = method.arguments().iter();

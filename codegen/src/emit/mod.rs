@@ -111,8 +111,8 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
         #[rustfmt::skip]
         impl #name {
             #chain
-            #methods
             #joint_names
+            #methods
         }
 
         #[rustfmt::skip]

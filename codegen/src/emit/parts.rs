@@ -228,6 +228,10 @@ mod tests {
         for method in crate::compile(&model).methods {
             let writer = Writer::new(&method.program);
             let (named, steps) = (writer.named(), writer.named_steps());
+            // What the arm has none of takes no steps, and is not divided.
+            if named.is_empty() {
+                continue;
+            }
             let elements = elements_by_last_name(&writer, &method.program.outputs, &named);
             let arguments = Argument::ALL.map(|argument| format_ident!("{}", argument.name()));
             let (parts, slots) = divide(&writer, &arguments, &named, &elements, 20);

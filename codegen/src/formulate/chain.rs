@@ -7,10 +7,10 @@
 
 use std::ops::Range;
 
-use ulna::{Angle, JointKind, Motor, Placement, TaskRows};
+use ulna::{Angle, Friction, JointKind, Motor, Placement, TaskRows};
 use ulna_table::Model;
 
-use super::body::{Body, base_parameters, links};
+use super::body::{Body, add_to_last, base_parameters};
 use super::vector::{Turn, Vec3, quarter_turns};
 use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Input};
@@ -32,6 +32,8 @@ pub struct ChainJoint<'g> {
     pub link: Body<'g>,
     /// What the joint's rotor adds to its entry of M, as far as the link has it not among its constants.
     pub reflected: Expr<'g>,
+    /// Its friction.
+    pub friction: Friction,
 }
 
 /// Joints about parallel axes.
@@ -93,9 +95,18 @@ pub struct Chain<'g> {
 impl<'g> Chain<'g> {
     /// Lays the model out on the graph.
     pub fn new(graph: &'g Graph, model: &Model) -> Self {
-        let mut links = links(graph, model);
+        let joints = model.joints().iter();
+        let mut links: Vec<Body<'g>> = joints
+            .map(|joint| Body::of_link(graph, &joint.link))
+            .collect();
+        let rotors = rotors(graph, model, &mut links);
         let mut bodies = base_parameters(graph, model, &links);
-        let rotors = rotors(graph, model, [&mut bodies, &mut links]);
+        // Regrouping the payload's parameters takes more operations than it saves: they are no numbers yet.
+        if model.has_payload() {
+            for bodies in [&mut bodies, &mut links] {
+                add_to_last(bodies, Body::payload(graph));
+            }
+        }
         let groups: Vec<Group<'g>> = parallel_runs(model)
             .into_iter()
             .map(|joints| Group {
@@ -114,6 +125,7 @@ impl<'g> Chain<'g> {
                 body: bodies[i],
                 link: links[i],
                 reflected: rotors[i],
+                friction: model.joints()[i].friction,
             })
             .collect();
         let mut chain = Self {
@@ -172,20 +184,14 @@ impl<'g> Chain<'g> {
 /// What the rotors add to M's diagonal.
 ///
 /// The first link of an arm turns about one axis only, that of its rotor's gears: a rotor there is one with the link, and costs nothing.
-fn rotors<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    constants: [&mut Vec<Body<'g>>; 2],
-) -> Vec<Expr<'g>> {
+fn rotors<'g>(graph: &'g Graph, model: &Model, links: &mut [Body<'g>]) -> Vec<Expr<'g>> {
     let joints = model.joints().iter();
     let mut rotors: Vec<Expr<'g>> = joints
         .map(|joint| reflected_inertia(graph, &joint.motor))
         .collect();
     if model.joints()[0].kind == JointKind::Revolute {
-        for bodies in constants {
-            let inertia = &mut bodies[0].inertia.0[2];
-            *inertia = *inertia + rotors[0];
-        }
+        let about_axis = &mut links[0].inertia.0[2];
+        *about_axis = *about_axis + rotors[0];
         rotors[0] = graph.constant(0.0);
     }
     rotors

@@ -139,6 +139,7 @@ const LEGEND: &[(&str, &str, &str)] = &[
         "moment on link i from the link before, about joint i's origin, N·m",
     ),
     ("tau", "tau_i", "torque of joint i, N·m"),
+    ("friction", "friction_i", "friction of joint i, N·m"),
     (
         "bias",
         "bias_i",

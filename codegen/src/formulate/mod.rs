@@ -7,6 +7,7 @@ pub(crate) mod articulated;
 pub(crate) mod body;
 pub(crate) mod chain;
 pub(crate) mod factorization;
+pub(crate) mod friction;
 pub(crate) mod inverse_dynamics;
 pub(crate) mod kinematics;
 pub(crate) mod legend;
@@ -19,6 +20,7 @@ pub(crate) mod vector;
 use ulna::{Method, TaskRow};
 
 use self::chain::Chain;
+use self::friction::{friction, with_friction};
 use self::inverse_dynamics::{
     Wrench, inverse_dynamics, inverse_dynamics_with_load, load_of_wrench,
 };
@@ -88,6 +90,7 @@ pub(crate) fn depends_on(method: Method) -> &'static [Chosen] {
         | Method::ForwardDynamics
         | Method::InverseDynamicsWithWrench
         | Method::ForwardDynamicsWithWrench
+        | Method::FrictionTorque
         | Method::MassMatrixAndDerivatives => &[],
         Method::GeometricJacobian | Method::JacobianDerivatives => &[Chosen::World],
         _ => &[Chosen::World, Chosen::Task],
@@ -107,18 +110,28 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
         Method::DynamicManipulabilityGradient => manipulability_and_gradient(chain, choices),
         Method::InverseDynamics => {
             let (qd, qdd) = (chain.inputs(Input::Qd), chain.inputs(Input::Qdd));
-            vec![torque(chain, &qd, &qdd)]
+            let torque = inverse_dynamics(chain, &qd, &qdd);
+            vec![torques(chain, with_friction(chain, &qd, torque))]
         }
-        Method::BiasForce => vec![torque(chain, &chain.inputs(Input::Qd), &zeros(chain))],
-        Method::GravityTorque => vec![torque(chain, &zeros(chain), &zeros(chain))],
+        Method::BiasForce => {
+            let bias = inverse_dynamics(chain, &chain.inputs(Input::Qd), &zeros(chain));
+            vec![torques(chain, bias)]
+        }
+        Method::GravityTorque => {
+            let gravity = inverse_dynamics(chain, &zeros(chain), &zeros(chain));
+            vec![torques(chain, gravity)]
+        }
         Method::ForwardDynamics => forward_dynamics(chain, unloaded(chain)),
         Method::InverseDynamicsWithWrench => {
             let (qd, qdd) = (chain.inputs(Input::Qd), chain.inputs(Input::Qdd));
             let torque = inverse_dynamics_with_load(chain, &qd, &qdd, load_of_wrench(chain));
-            let torque = named(torque, "tau");
-            vec![Output::new("torque", &[chain.joint_count()], torque)]
+            vec![torques(chain, with_friction(chain, &qd, torque))]
         }
         Method::ForwardDynamicsWithWrench => forward_dynamics(chain, load_of_wrench(chain)),
+        Method::FrictionTorque => {
+            let friction = friction(chain, &chain.inputs(Input::Qd));
+            vec![torques(chain, named(friction, "friction"))]
+        }
         Method::MassMatrixAndDerivatives => vec![mass(chain), derivatives_of_mass(chain)],
         Method::JacobianAndGradient => {
             let mut outputs = vec![jacobian(chain, choices)];
@@ -203,8 +216,8 @@ fn named<'g>(values: Vec<Expr<'g>>, family: &'static str) -> Vec<Expr<'g>> {
     values
 }
 
-fn torque<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Output<Expr<'g>> {
-    let elements = named(inverse_dynamics(chain, qd, qdd), "tau");
+fn torques<'g>(chain: &Chain<'g>, elements: Vec<Expr<'g>>) -> Output<Expr<'g>> {
+    let elements = named(elements, "tau");
     Output::new("torque", &[chain.joint_count()], elements)
 }
 
@@ -215,10 +228,9 @@ fn unloaded<'g>(chain: &Chain<'g>) -> Wrench<'g> {
 fn forward_dynamics<'g>(chain: &Chain<'g>, load: Wrench<'g>) -> Outputs<'g> {
     let qd = chain.inputs(Input::Qd);
     let bias = inverse_dynamics_with_load(chain, &qd, &zeros(chain), load);
-    let driving = chain
-        .inputs(Input::Tau)
-        .into_iter()
-        .zip(named(bias, "bias"));
+    let bias = with_friction(chain, &qd, bias);
+    let tau = chain.inputs(Input::Tau).into_iter();
+    let driving = tau.zip(named(bias, "bias"));
     let driving: Vec<Expr<'g>> = driving.map(|(tau, bias)| tau - bias).collect();
     let driving = named(driving, "net");
     let elements = factorization::factor(&mass_matrix(chain)).solve(&driving);

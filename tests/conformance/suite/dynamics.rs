@@ -51,14 +51,14 @@ pub(crate) fn velocity_products_follow_from_the_mass_matrix<const N: usize>(
         near(&actual, &products, scale, 1e-12, "bias force");
 
         let tau = arm.inverse_dynamics(&q, &qd, &qdd);
-        let power = qd.dot(&(tau - gravity));
+        let power = qd.dot(&(tau - gravity - arm.friction_torque(&qd)));
         let kinetic = qd.dot(&(m * qdd)) + 0.5 * qd.dot(&(rate * qd));
         let scale = tau.amax();
         near([&power], [&kinetic], scale, 1e-12, "power");
     });
 }
 
-/// A fall without torques: the sum of kinetic and potential energy stays, by Runge–Kutta's classical rule.
+/// A fall in which motors do nothing but overcome friction: the sum of kinetic and potential energy stays, by Runge–Kutta's classical rule.
 pub(crate) fn energy_is_conserved<const N: usize>(arm: &impl Arm<N>, chain: &SerialChain<N>) {
     let exponentials = Exponentials::new(chain);
     let energies = |q: &SVector<f64, N>, qd: &SVector<f64, N>| {
@@ -67,8 +67,9 @@ pub(crate) fn energy_is_conserved<const N: usize>(arm: &impl Arm<N>, chain: &Ser
     };
     let State { mut q, mut qd, .. } = states(chain).next().expect("states have no end");
     let (kinetic, potential) = energies(&q, &qd);
-    let free = SVector::zeros();
-    let fall = |q: &SVector<f64, N>, qd: &SVector<f64, N>| arm.forward_dynamics(q, qd, &free);
+    let fall = |q: &SVector<f64, N>, qd: &SVector<f64, N>| {
+        arm.forward_dynamics(q, qd, &arm.friction_torque(qd))
+    };
     let h = 5e-4;
     let mut exchanged = 0.0_f64;
     for _ in 0..200 {
@@ -118,7 +119,7 @@ pub(crate) fn forward_dynamics_undo_inverse_dynamics<const N: usize>(
                 "qdd",
             );
             let motion = arm.forward_dynamics(&q, &qd, &tau);
-            let scale = arm.bias_force(&q, &qd).amax();
+            let scale = arm.bias_force(&q, &qd).amax() + arm.friction_torque(&qd).amax();
             near(
                 &arm.inverse_dynamics(&q, &qd, &motion),
                 &tau,

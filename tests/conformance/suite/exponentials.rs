@@ -20,6 +20,8 @@ impl<D: DualNum<Primitive = f64, Real = f64> + Copy> Number for D {}
 pub(super) struct Exponentials<const N: usize> {
     screws: [Screw; N],
     bodies: [Body; N],
+    /// What rotors behind their gears add to M's diagonal.
+    rotors: [f64; N],
     tool: (Matrix3<f64>, Vector3<f64>),
     gravity: Vector3<f64>,
     task: Vec<usize>,
@@ -78,6 +80,9 @@ impl<const N: usize> Exponentials<N> {
         Self {
             screws: placed.map(|(screw, _)| screw),
             bodies: placed.map(|(_, body)| body),
+            rotors: chain
+                .joints
+                .map(|joint| joint.motor.inertia * joint.motor.ratio * joint.motor.ratio),
             tool: (
                 *tool.rotation.to_rotation_matrix().matrix(),
                 tool.translation.vector,
@@ -139,12 +144,12 @@ impl<const N: usize> Exponentials<N> {
         let motions = self.motions(q);
         let screws = self.carried(&motions);
         let mut composite = lift(SMatrix::<f64, 6, 6>::zeros());
-        let mut mass_matrix = lift(SMatrix::<f64, N, N>::zeros());
+        let mut mass_matrix = lift(SMatrix::from_diagonal(&SVector::from(self.rotors)));
         for j in (0..N).rev() {
             composite += self.bodies[j].spatial_inertia(&motions[j]);
             let momentum = composite * screws[j];
             for i in 0..=j {
-                mass_matrix[(i, j)] = dot(&screws[i], &momentum);
+                mass_matrix[(i, j)] += dot(&screws[i], &momentum);
                 mass_matrix[(j, i)] = mass_matrix[(i, j)];
             }
         }

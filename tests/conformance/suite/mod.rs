@@ -7,6 +7,7 @@
 mod differences;
 mod exponentials;
 
+pub(crate) mod drives;
 pub(crate) mod dynamics;
 pub(crate) mod kinematics;
 pub(crate) mod manipulability;
@@ -35,6 +36,9 @@ macro_rules! conformance {
             dynamics::energy_is_conserved
             dynamics::forward_dynamics_undo_inverse_dynamics
             dynamics::a_wrench_does_the_work_of_the_tool
+            drives::rotors_add_to_the_diagonal_of_the_mass_matrix
+            drives::friction_is_its_closed_form
+            drives::nothing_else_sees_rotors_and_friction
             manipulability::manipulability_is_that_of_its_own_jacobian_and_mass_matrix
             manipulability::manipulability_gradient_agrees_with_differences
             manipulability::manipulability_agrees_with_dual_numbers
