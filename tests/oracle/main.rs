@@ -5,6 +5,7 @@
 
 mod dynamics;
 mod manipulability;
+mod payload;
 
 use nalgebra::{SMatrix, SVector};
 use serde::Deserialize;
