@@ -21,6 +21,7 @@ fn gradient(model: &Model, articulated: bool) -> Program {
 fn run<R: Scalar>(program: &Program, q: &[f64]) -> Vec<f64> {
     let arguments = Arguments {
         q,
+        payload: &[0.0; 10],
         ..Arguments::default()
     };
     R::run(program, arguments)

@@ -55,9 +55,10 @@ impl Parse for Call {
         let table = input.parse()?;
         let mut generator = Generator::new();
         if input.parse::<Option<Token![,]>>()?.is_some() && !input.is_empty() {
-            let key: Ident = input.parse()?;
+            let expected = "expected `methods = [...]`";
+            let key: Ident = input.parse().map_err(|_| input.error(expected))?;
             if key != "methods" {
-                return Err(syn::Error::new(key.span(), "expected `methods = [...]`"));
+                return Err(syn::Error::new(key.span(), expected));
             }
             input.parse::<Token![=]>()?;
             let list;
