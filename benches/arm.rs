@@ -54,7 +54,7 @@ fn arms(criterion: &mut Criterion) {
             $(compare::<$joints>(
                 criterion,
                 stringify!($name),
-                &ulna_generated::$arm,
+                &ulna_generated::$arm::default(),
                 &ulna_generated::$arm::CHAIN,
             );)*
         };

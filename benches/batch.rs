@@ -119,7 +119,7 @@ fn every_arm() {
         ($(($arm:ident, $name:ident, $joints:literal))*) => {
             $({
                 let all: Vec<State<$joints>> = states(&ulna_generated::$arm::CHAIN).take(1024).collect();
-                arm(stringify!($name), &ulna_generated::$arm, &all);
+                arm(stringify!($name), &ulna_generated::$arm::default(), &all);
             })*
         };
     }

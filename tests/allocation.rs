@@ -4,11 +4,11 @@ use ulna::control::compensation::FreeTorque;
 use ulna::control::failure::impact_torque;
 use ulna::nalgebra::{SVector, Vector6};
 use ulna::{
-    Arm, Compensation, Controller, Failure, JointLimits, JointState, LockedJoints, OnLine,
+    Arm, Compensation, Controller, Failure, JointLimits, JointState, LockedJoints, OnLine, Payload,
     PointToPoint, Projector, Recourse, Schedule, SerialChain, Status, SuppressionLaw,
     SuppressionLoop,
 };
-use ulna_generated::Ssrms;
+use ulna_generated::{Geared6, Ssrms};
 use ulna_study::simulation::{Brake, Control, Feedback, Resolution, Simulation};
 use ulna_table::Model;
 
@@ -127,6 +127,34 @@ fn loops(arm: &impl Arm<7>, every: usize, rated: &[f64]) {
 fn a_suppression_loop_allocates_nothing() {
     loops(&Ssrms, 1, &[f64::INFINITY, 250.0, 1.0]);
     loops(&Ssrms::CHAIN, 5, &[250.0]);
+}
+
+/// Another payload between two cycles: the loop goes on with the arm that carries it.
+#[test]
+fn a_change_of_payload_allocates_nothing() {
+    let wrench = Vector6::new(20.0, 20.0, 20.0, 0.0, 0.0, 0.0);
+    let state = JointState {
+        q: SVector::from([0.7, 0.2, 1.3, -2.0, 0.3, 0.4]),
+        qd: SVector::repeat(0.2),
+        qdd: SVector::repeat(0.02),
+    };
+    let empty = Geared6::default();
+    let mut arm = empty;
+    let (mut before, mut after) = (SVector::zeros(), SVector::zeros());
+    let count = allocations(|| {
+        let mut suppression = SuppressionLoop::on_line(&empty, OnLine::equal());
+        let free = LockedJoints::NONE;
+        before = suppression.cycle(0.0, &state, &wrench, free).control.torque;
+        let body = Payload::new(5.0, [0.1, 0.0, 0.2], [[0.0; 3]; 3]);
+        assert!(body.and_then(|body| arm.set_payload(body)).is_ok());
+        suppression.set_arm(&arm);
+        after = suppression
+            .cycle(1e-3, &state, &wrench, free)
+            .control
+            .torque;
+    });
+    assert_eq!(count, 0);
+    assert!((after - before).amax() > 1.0);
 }
 
 #[test]

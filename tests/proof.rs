@@ -111,7 +111,7 @@ macro_rules! generated {
             #[test]
             fn $name() {
                 let chain = ulna_generated::$Type::CHAIN;
-                let report = compare(&ulna_generated::$Type, &chain, states(&chain).take(25));
+                let report = compare(&ulna_generated::$Type::default(), &chain, states(&chain).take(25));
                 println!("{}\n{report}", stringify!($name));
                 assert!(report.passes(), "{report}");
             }

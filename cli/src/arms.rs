@@ -27,7 +27,7 @@ macro_rules! generated_arms {
 
         fn with_generated<W: ForArm>(name: &str, work: W) -> anyhow::Result<W::Output> {
             match name {
-                $(stringify!($name) => Ok(work.run(&ulna_generated::$Type)),)+
+                $(stringify!($name) => Ok(work.run(&ulna_generated::$Type::default())),)+
                 _ => bail!("no arm `{name}` was compiled into the program"),
             }
         }

@@ -58,6 +58,9 @@ fn summarize(path: &Path, model: &Model, out: &mut dyn Write) -> io::Result<()> 
     )?;
     writeln!(out, "  task           {}", rows.join(" "))?;
     writeln!(out, "  moving mass    {} kg", rounded(mass))?;
+    if model.has_payload() {
+        writeln!(out, "  payload        at run time")?;
+    }
     writeln!(out, "  gravity        {x} {y} {z} m/s^2")?;
     writeln!(
         out,

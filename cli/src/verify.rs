@@ -35,9 +35,14 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         textbook,
         differences,
     } = with_chain(&model, verify)??;
+    let carrying = if model.has_payload() {
+        " with a payload as heavy as its last link"
+    } else {
+        ""
+    };
     writeln!(
         out,
-        "{}: the emitted program against its own formulas in 106 bits\n{emitted}",
+        "{}{carrying}: the emitted program against its own formulas in 106 bits\n{emitted}",
         model.name()
     )?;
     writeln!(
@@ -83,8 +88,14 @@ impl ForChain for Verify<'_> {
     type Output = Result<Found, JointCountError>;
 
     fn run<const N: usize>(self, chain: &SerialChain<N>) -> Self::Output {
-        let emitted: Interpreter<N> = Interpreter::new(self.model)?;
-        let exact = emitted.exact();
+        let mut emitted: Interpreter<N> = Interpreter::new(self.model)?;
+        let mut chain = *chain;
+        if self.model.has_payload() {
+            let payload = proof::payload(&chain);
+            emitted = emitted.carrying(&payload);
+            chain = chain.carrying(&payload);
+        }
+        let (chain, exact) = (&chain, emitted.exact());
         let states = || proof::states(chain).take(self.samples);
         Ok(Found {
             emitted: proof::compare_with(&emitted, &exact, chain, states()),

@@ -94,6 +94,7 @@ fn watched(table: &Path) -> &Path {
 /// it includes every arm, and defines a macro that lists them.
 ///
 /// `for_each_arm!(callback)` expands to `callback! { (Ssrms, ssrms, 7) … }`: type, name and joints of each.
+/// `Ssrms::default()` is a value of any such type, whether or not it holds a payload.
 ///
 /// # Errors
 /// As [`compile_arms`], and if the folder cannot be read.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::SVector;
 use ulna::internal::{Quantity, coordinates};
 use ulna::proof::State;
-use ulna::{Arm, Joint, JointKind, Method, Payload, PayloadError, SerialChain, TaskRows};
+use ulna::{Arm, Joint, JointKind, Method, Payload, SerialChain, TaskRows};
 use ulna_table::{JointCountError, Model};
 
 use crate::accuracy::{Arguments, Scalar};
@@ -53,16 +53,13 @@ impl<const N: usize> Interpreter<N> {
         })
     }
 
-    /// The same arm with `payload`, if its table gives it one at run time.
-    ///
-    /// # Errors
-    /// A payload so heavy that a link would be lost in the rounding of what it carries.
-    pub fn carrying(&self, payload: &Payload) -> Result<Self, PayloadError> {
-        self.chain.admit(payload)?;
-        Ok(Self {
+    /// The same arm with `payload`, if its table gives it one at run time; [`SerialChain::admit`] tells whether it can carry it.
+    #[must_use]
+    pub fn carrying(&self, payload: &Payload) -> Self {
+        Self {
             payload: payload.parameters(&self.chain.tool).to_vec(),
             ..self.clone()
-        })
+        }
     }
 
     /// The same programs without rounding errors but those of their results: they run in numbers of 106 bits.

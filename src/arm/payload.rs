@@ -100,6 +100,21 @@ impl Payload {
         Ok(Self { mass, com, inertia })
     }
 
+    /// A body for proofs, without any symmetry, as heavy as the chain's last link.
+    pub(crate) fn example<const N: usize>(chain: &SerialChain<N>) -> Self {
+        let mass = chain.joints.last().map_or(0.0, |joint| joint.link.mass);
+        let per_mass = [
+            [0.025, 0.005, -0.002],
+            [0.005, 0.02, 0.003],
+            [-0.002, 0.003, 0.015],
+        ];
+        Self {
+            mass,
+            com: [0.1, -0.2, 0.3],
+            inertia: per_mass.map(|row| row.map(|x| mass * x)),
+        }
+    }
+
     /// Its mass, kg.
     pub const fn mass(&self) -> f64 {
         self.mass

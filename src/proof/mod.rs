@@ -19,7 +19,7 @@ use judge::Judge;
 pub use report::{Deviation, Report};
 use scale::Scale;
 
-use crate::{Arm, JointKind, SerialChain};
+use crate::{Arm, JointKind, Payload, SerialChain};
 use random::SplitMix64;
 
 /// A configuration of an arm, its motion, and its motors' torques.
@@ -58,6 +58,11 @@ pub fn states<const N: usize>(chain: &SerialChain<N>) -> impl Iterator<Item = St
             wrench: Vector6::from_fn(|_, _| random_wrench.symmetric()),
         }
     })
+}
+
+/// A payload to prove an arm with: without any symmetry, as heavy as the last link of `chain`.
+pub fn payload<const N: usize>(chain: &SerialChain<N>) -> Payload {
+    Payload::example(chain)
 }
 
 /// At rest, all coordinates and torques 0.

@@ -24,7 +24,7 @@ macro_rules! backends {
         mod generated {
             $(mod $name {
                 crate::suite::conformance!(
-                    ulna_generated::$Type,
+                    ulna_generated::$Type::default(),
                     crate::chain::<$n>(stringify!($name))
                 );
 

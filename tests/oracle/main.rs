@@ -5,6 +5,7 @@
 
 mod dynamics;
 mod manipulability;
+mod payload;
 
 use nalgebra::{SMatrix, SVector};
 use serde::Deserialize;
@@ -117,7 +118,7 @@ macro_rules! backends {
 
         mod generated {
             $(mod $name {
-                crate::both!("generated", stringify!($name), ulna_generated::$Type);
+                crate::both!("generated", stringify!($name), ulna_generated::$Type::default());
             })*
         }
     };

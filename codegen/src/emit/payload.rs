@@ -57,13 +57,8 @@ pub(super) fn examples(name: &Ident) -> [TokenStream; 2] {
     [
         quote!(super::#name::default()),
         quote! {
-            ::ulna::Payload::new(
-                2.0,
-                [0.1, -0.2, 0.3],
-                [[0.05, 0.01, -0.004], [0.01, 0.04, 0.006], [-0.004, 0.006, 0.03]],
-            )
-            .and_then(super::#name::carrying)
-            .unwrap_or_default()
+            super::#name::carrying(::ulna::proof::payload(&super::#name::CHAIN))
+                .expect("the arm carries what is as heavy as its last link")
         },
     ]
 }

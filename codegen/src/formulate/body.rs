@@ -17,18 +17,11 @@ pub struct Body<'g> {
     pub inertia: Sym3<'g>,
 }
 
-/// Each link's parameters; the last one's together with those of what it carries at run time.
-pub(crate) fn links<'g>(graph: &'g Graph, model: &Model) -> Vec<Body<'g>> {
-    let joints = model.joints().iter();
-    let mut links: Vec<_> = joints
-        .map(|joint| Body::of_link(graph, &joint.link))
-        .collect();
-    if model.has_payload()
-        && let Some(last) = links.last_mut()
-    {
-        *last = last.join(Body::payload(graph));
+/// Joins a body to the last link.
+pub(crate) fn add_to_last<'g>(bodies: &mut [Body<'g>], body: Body<'g>) {
+    if let Some(last) = bodies.last_mut() {
+        *last = last.join(body);
     }
-    links
 }
 
 /// The links' parameters, regrouped to the base (minimal) parameters of each joint
@@ -94,7 +87,7 @@ impl<'g> Body<'g> {
     }
 
     /// The payload that is an argument, about the origin of the last link's frame.
-    fn payload(graph: &'g Graph) -> Self {
+    pub fn payload(graph: &'g Graph) -> Self {
         let [mass, x, y, z, xx, yy, zz, xy, xz, yz] =
             std::array::from_fn(|i| graph.input(Input::Payload(i)));
         Self {

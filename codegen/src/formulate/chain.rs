@@ -10,7 +10,7 @@ use std::ops::Range;
 use ulna::{Angle, Friction, JointKind, Motor, Placement, TaskRows};
 use ulna_table::Model;
 
-use super::body::{Body, base_parameters, links};
+use super::body::{Body, add_to_last, base_parameters};
 use super::vector::{Turn, Vec3, quarter_turns};
 use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Input};
@@ -80,9 +80,18 @@ pub struct Chain<'g> {
 impl<'g> Chain<'g> {
     /// Lays the model out on the graph.
     pub fn new(graph: &'g Graph, model: &Model) -> Self {
-        let mut links = links(graph, model);
+        let joints = model.joints().iter();
+        let mut links: Vec<Body<'g>> = joints
+            .map(|joint| Body::of_link(graph, &joint.link))
+            .collect();
         let rotors = rotors(graph, model, &mut links);
-        let bodies = base_parameters(graph, model, &links);
+        let mut bodies = base_parameters(graph, model, &links);
+        // Regrouping the payload's parameters takes more operations than it saves: they are no numbers yet.
+        if model.has_payload() {
+            for bodies in [&mut bodies, &mut links] {
+                add_to_last(bodies, Body::payload(graph));
+            }
+        }
         let groups: Vec<Group<'g>> = parallel_runs(model)
             .into_iter()
             .map(|joints| Group {

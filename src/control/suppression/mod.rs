@@ -104,7 +104,7 @@ pub struct SuppressionLoop<'a, A: ?Sized, const N: usize> {
     rate_limit: SVector<f64, N>,
     rated_torque: SVector<f64, N>,
     anchor: Option<Anchor<N>>,
-    /// A law was exchanged since the last cycle: whether both of them keep the tool force.
+    /// A law or the arm was exchanged since the last cycle: whether both of them keep the tool force.
     switched: Option<bool>,
     memory: Option<Memory<N>>,
 }
@@ -165,15 +165,27 @@ impl<'a, A: Arm<N> + ?Sized, const N: usize> SuppressionLoop<'a, A, N> {
 
     /// Exchanges the law that acts now (that for locked joints once one is locked); U goes over to it within the ramp.
     pub fn switch(&mut self, law: SuppressionLaw<'a, N>) {
-        let locked = self.memory.is_some_and(|last| !last.locked.is_empty());
-        let acting = if locked {
+        let acting = self.acting();
+        let keep = acting.keeps_force() && law.keeps_force();
+        *acting = law;
+        self.switched = Some(keep && self.switched.unwrap_or(true));
+    }
+
+    /// Goes on with another arm of the same joints, such as the same one with another payload;
+    /// U goes over to what the law wants of it within the ramp.
+    pub fn set_arm(&mut self, arm: &'a A) {
+        let keep = self.acting().keeps_force();
+        self.arm = arm;
+        self.switched = Some(keep && self.switched.unwrap_or(true));
+    }
+
+    /// The law that acts now.
+    fn acting(&mut self) -> &mut SuppressionLaw<'a, N> {
+        if self.memory.is_some_and(|last| !last.locked.is_empty()) {
             &mut self.after
         } else {
             &mut self.before
-        };
-        let keep = acting.keeps_force() && law.keeps_force() && self.switched.unwrap_or(true);
-        *acting = law;
-        self.switched = Some(keep);
+        }
     }
 
     /// Forgets what was: the next cycle is the first one, without anything to be smooth with.

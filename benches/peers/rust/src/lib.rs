@@ -122,14 +122,14 @@ macro_rules! finders {
     ($(($Arm:ident, $name:ident, $n:literal))*) => {
         fn generated(arm: &[u8], quantity: &[u8]) -> Option<Kernel> {
             $(if arm == stringify!($name).as_bytes() {
-                return quantity!(ulna_generated::$Arm, $n, quantity);
+                return quantity!(ulna_generated::$Arm::default(), $n, quantity);
             })*
             None
         }
 
         fn batched(arm: &[u8], quantity: &[u8]) -> Option<BatchKernel> {
             $(if arm == stringify!($name).as_bytes() {
-                return batch_quantity!(ulna_generated::$Arm, $n, quantity);
+                return batch_quantity!(ulna_generated::$Arm::default(), $n, quantity);
             })*
             None
         }
