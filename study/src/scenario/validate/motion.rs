@@ -155,11 +155,14 @@ impl Reader<'_> {
             let message = format!("{} is beyond the limits of the arm", list.name);
             let shown = |value: f64| (value * factor * 1e6).round() / 1e6;
             let label = format!("q of {} would be {}", arm.joint_called(index), shown(*q));
-            let help = format!(
-                "its table allows {} to {} {unit}, measured from the table's configuration",
-                shown(lower),
-                shown(upper)
-            );
+            let (least, most) = (shown(lower), shown(upper));
+            let range = match (lower.is_finite(), upper.is_finite()) {
+                (true, true) => format!("{least} to {most}"),
+                (true, false) => format!("at least {least}"),
+                _ => format!("at most {most}"),
+            };
+            let help =
+                format!("its table allows {range} {unit}, measured from the table's configuration");
             self.refuse(span, message, label, help);
             sound = None;
         }
