@@ -81,7 +81,7 @@ pub use control::compensation::{
 pub use control::failure::{Failure, LockedJoints};
 pub use control::suppression::{LoopCycle, Recourse, Schedule, SuppressionLaw, SuppressionLoop};
 pub use control::trajectory::{
-    JointLimits, JointState, PointToPoint, Profile, ProfileShape, Trajectory,
+    JointLimits, JointState, PointToPoint, PositionLimits, Profile, ProfileShape, Trajectory,
 };
 pub use generic::SerialChain;
 pub use kernels::Unrolled;

@@ -22,6 +22,7 @@ macro_rules! generated_arms {
         pub(crate) const GENERATED: &[KnownArm] = &[$(KnownArm {
             name: stringify!($name),
             joints: &ulna_generated::$Type::CHAIN.joints,
+            joint_names: &ulna_generated::$Type::JOINT_NAMES,
         }),+];
 
         fn with_generated<W: ForArm>(name: &str, work: W) -> anyhow::Result<W::Output> {

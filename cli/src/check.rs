@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use ulna::{JointKind, TaskRow};
+use ulna::{Friction, Joint, JointKind, Limits, Motor, TaskRow};
 use ulna_table::Model;
 
 use crate::{Verdict, console};
@@ -68,7 +68,41 @@ fn summarize(path: &Path, model: &Model, out: &mut dyn Write) -> io::Result<()> 
         rated.count(),
         joints.len()
     )?;
+    summarize_drives(model, out)?;
     writeln!(out, "  sha256         {}", model.table_hash())
+}
+
+/// What else the table says of the joints, as far as it says anything.
+fn summarize_drives(model: &Model, out: &mut dyn Write) -> io::Result<()> {
+    let (joints, names) = (model.joints(), model.joint_names());
+    let given: Vec<_> = (1..)
+        .zip(names)
+        .filter(|(number, name)| **name != format!("joint {number}"))
+        .map(|(number, name)| format!("{number} {name}"))
+        .collect();
+    if !given.is_empty() {
+        writeln!(out, "  joint names    {}", given.join(", "))?;
+    }
+    for (what, count) in [
+        (
+            "limits",
+            count(joints, |joint| joint.limits != Limits::NONE),
+        ),
+        ("motors", count(joints, |joint| joint.motor != Motor::NONE)),
+        (
+            "friction",
+            count(joints, |joint| joint.friction != Friction::NONE),
+        ),
+    ] {
+        if count > 0 {
+            writeln!(out, "  {what:14} {count} of {} joints", joints.len())?;
+        }
+    }
+    Ok(())
+}
+
+fn count(joints: &[Joint], has: impl Fn(&Joint) -> bool) -> usize {
+    joints.iter().filter(|joint| has(joint)).count()
 }
 
 /// A sum of numbers that were written in decimals, without the digits that only rounding has put there.

@@ -5,7 +5,7 @@
 //! and each term that the paper writes for i = k or for i > k is kept for every i.
 //!
 //! Readings of the paper, each settled by the identity
-//! `Δτ = ID(q, q̇, q̈) − ID(q, q̇ − Δq̇, q̈ − Δq̈)`, which the recursion meets to rounding:
+//! `Δτ = ID(q, q̇, q̈) − ID(q, q̇ − Δq̇, q̈ − Δq̈)`, which the recursion meets to rounding, friction apart:
 //! - Δ is *before the lock* minus *after the lock*; the torque step of Eq. 18 is its negative.
 //! - Eq. 2–4: the velocity products take the rate of the joint at hand: that before the lock for i = k, `θ̇_i` for i > k.
 //!   The printed superscripts drift.
@@ -192,7 +192,7 @@ pub fn impact_torque<const N: usize>(
 }
 
 /// The motors' part of the impact torque (Eq. 12) of any arm, as the difference of two calls of its inverse dynamics
-/// plus Jᵀ `ΔF_e`: the same as [`impact_torque`]'s, without the structure's part.
+/// plus Jᵀ `ΔF_e`: the same as [`impact_torque`]'s, without the structure's part. A locked joint's friction, which ends with its motion, is left out of both.
 pub fn impact_torque_of<const N: usize>(
     arm: &(impl Arm<N> + ?Sized),
     state: &JointState<N>,
@@ -200,9 +200,14 @@ pub fn impact_torque_of<const N: usize>(
     delta_wrench: &Vector6<f64>,
 ) -> SVector<f64, N> {
     let after = locked.hold(state);
-    arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
+    let friction = arm.friction_torque(&state.qd);
+    let mut impact = arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
         - arm.inverse_dynamics(&after.q, &after.qd, &after.qdd)
-        + arm.geometric_jacobian(&state.q).tr_mul(delta_wrench)
+        + arm.geometric_jacobian(&state.q).tr_mul(delta_wrench);
+    for joint in locked.iter() {
+        impact[joint] -= friction[joint];
+    }
+    impact
 }
 
 /// A link's motion before the lock, and what the lock takes from it.

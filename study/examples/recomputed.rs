@@ -117,6 +117,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let known = [KnownArm {
         name: "ssrms",
         joints: &Ssrms::CHAIN.joints,
+        joint_names: &Ssrms::JOINT_NAMES,
     }];
     let scenario = Scenario::load("scenarios/paper_like.toml", &known)?;
     let motion = scenario.motion().plan(&Ssrms, 0.02)?;

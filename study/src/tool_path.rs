@@ -106,6 +106,14 @@ impl<const N: usize> ToolPath<N> {
         }
     }
 
+    /// The knots, each with its time, s.
+    pub fn states(&self) -> impl Iterator<Item = (f64, &JointState<N>)> {
+        self.phases.iter().flat_map(|phase| {
+            let knots = phase.knots.iter().enumerate();
+            knots.map(|(index, knot)| (phase.start + index as f64 * phase.step, knot))
+        })
+    }
+
     /// The first and the last knot.
     fn ends(&self) -> [&JointState<N>; 2] {
         let last = &self.phases[self.phases.len() - 1].knots;

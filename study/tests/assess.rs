@@ -16,6 +16,7 @@ fn assessment(failure_times: u32, locks_at_once: u32) -> Assessment {
     let known = [KnownArm {
         name: "ssrms",
         joints: &Ssrms::CHAIN.joints,
+        joint_names: &Ssrms::JOINT_NAMES,
     }];
     let scenario = Scenario::parse(&text, "text", "".as_ref(), &known).unwrap();
     let grid = FailureGrid::new(&Ssrms, &scenario).unwrap();

@@ -16,6 +16,7 @@ const PAPER_LIKE: &str = include_str!("../../scenarios/paper_like.toml");
 const KNOWN: &[KnownArm] = &[KnownArm {
     name: "ssrms",
     joints: &Ssrms::CHAIN.joints,
+    joint_names: &Ssrms::JOINT_NAMES,
 }];
 const TIMES: [f64; 3] = [3.0, 10.0, 18.0];
 
@@ -442,6 +443,7 @@ fn an_experiment_of_another_arm_is_refused() {
     let planar = KnownArm {
         name: "planar_2r",
         joints: &Planar2r::CHAIN.joints,
+        joint_names: &Planar2r::JOINT_NAMES,
     };
     let planar = Scenario::parse(PLANAR, "planar.toml", Path::new(""), &[planar]).unwrap();
     let paper_like = scenario(&[]);

@@ -23,6 +23,7 @@ fn parse(text: &str) -> Result<Scenario, ScenarioErrors> {
     let known = [KnownArm {
         name: "ssrms",
         joints: &Ssrms::CHAIN.joints,
+        joint_names: &Ssrms::JOINT_NAMES,
     }];
     Scenario::parse(text, "laws.toml", Path::new(""), &known)
 }

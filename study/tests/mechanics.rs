@@ -17,14 +17,17 @@ const KNOWN: &[KnownArm] = &[
     KnownArm {
         name: "ssrms",
         joints: &Ssrms::CHAIN.joints,
+        joint_names: &Ssrms::JOINT_NAMES,
     },
     KnownArm {
         name: "planar_2r",
         joints: &Planar2r::CHAIN.joints,
+        joint_names: &Planar2r::JOINT_NAMES,
     },
     KnownArm {
         name: "oblique_6",
         joints: &Oblique6::CHAIN.joints,
+        joint_names: &Oblique6::JOINT_NAMES,
     },
 ];
 

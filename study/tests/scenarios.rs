@@ -21,6 +21,7 @@ fn known() -> Vec<KnownArm> {
             KnownArm {
                 name,
                 joints: model.description().joints.leak(),
+                joint_names: &[],
             }
         })
         .collect()

@@ -17,6 +17,7 @@ const PAPER_LIKE: &str = include_str!("../../scenarios/paper_like.toml");
 const KNOWN: &[KnownArm] = &[KnownArm {
     name: "ssrms",
     joints: &Ssrms::CHAIN.joints,
+    joint_names: &Ssrms::JOINT_NAMES,
 }];
 const NONE: Rotors = Rotors::Common(0.0);
 

@@ -6,7 +6,7 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::bodies::{distal, link};
-use super::geometry::{length, place, turn, twist};
+use super::geometry::{decades, length, place, turn, twist};
 use super::table::{Joint, ROWS, Table, Task};
 
 /// A table, and how many of the states of `proof::states` are left out before the first that it is judged at.
@@ -28,16 +28,33 @@ enum Pattern {
 
 fn joint() -> BoxedStrategy<Joint> {
     let prismatic = proptest::bool::weighted(0.2);
-    (prismatic, turn(), length(), length(), twist(), link())
-        .prop_map(|(prismatic, theta, d, a, alpha, link)| Joint {
-            prismatic,
-            theta,
-            d,
-            a,
-            alpha,
-            link,
+    let row = (turn(), length(), length(), twist());
+    (prismatic, row, motor(), friction(), link())
+        .prop_map(|(prismatic, row, motor, friction, link)| {
+            let (theta, d, a, alpha) = row;
+            Joint {
+                prismatic,
+                theta,
+                d,
+                a,
+                alpha,
+                motor,
+                friction,
+                link,
+            }
         })
         .boxed()
+}
+
+/// A rotor of a microgram's to a flywheel's inertia, behind gears or not.
+fn motor() -> BoxedStrategy<Option<(f64, f64)>> {
+    let motor = (decades(-80..=-10), decades(0..=30));
+    proptest::option::weighted(0.3, motor).boxed()
+}
+
+fn friction() -> BoxedStrategy<Option<[f64; 3]>> {
+    let friction = [decades(-20..=20), decades(-20..=20), decades(-40..=0)];
+    proptest::option::weighted(0.3, friction).boxed()
 }
 
 fn task() -> BoxedStrategy<Task> {

@@ -39,6 +39,10 @@ pub(crate) struct Joint {
     pub(crate) d: f64,
     pub(crate) a: f64,
     pub(crate) alpha: f64,
+    /// The rotor's inertia, and its ratio.
+    pub(crate) motor: Option<(f64, f64)>,
+    /// Viscous, Coulomb's, and what smooths it.
+    pub(crate) friction: Option<[f64; 3]>,
     pub(crate) link: Link,
 }
 
@@ -111,6 +115,15 @@ impl fmt::Display for Table {
             }
             writeln!(f, "theta = {theta:?}\nd = {:?}", joint.d)?;
             writeln!(f, "a = {:?}\nalpha = {alpha:?}", joint.a)?;
+            if let Some((inertia, ratio)) = joint.motor {
+                writeln!(f, "motor = {{ inertia = {inertia:?}, ratio = {ratio:?} }}")?;
+            }
+            if let Some([viscous, coulomb, smoothing]) = joint.friction {
+                writeln!(
+                    f,
+                    "friction = {{ viscous = {viscous:?}, coulomb = {coulomb:?}, smoothing = {smoothing:?} }}"
+                )?;
+            }
             let Link { mass, com, inertia } = &joint.link;
             writeln!(f, "[joint.link]\nmass = {mass:?}\ncom = {com:?}")?;
             let keys = ["xx", "yy", "zz", "xy", "xz", "yz"];

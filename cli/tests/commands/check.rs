@@ -15,6 +15,16 @@ fn good_tables_give_a_summary_each() {
     assert!(out.contains("7: R R R R R R R"), "{out}");
     assert!(out.contains("6: R R P R R R"), "{out}");
     assert!(out.contains("x y z rx ry\n"), "{out}");
+    assert!(!out.contains("joint names"), "{out}");
+
+    let out = stdout(&ulna(&["check", "arms/geared_6.toml"]).code(0).stderr(""));
+    assert!(
+        out.contains("  joint names    1 turntable, 2 lift, 3 shoulder, "),
+        "{out}"
+    );
+    assert!(out.contains("  limits         6 of 6 joints\n"), "{out}");
+    assert!(out.contains("  motors         5 of 6 joints\n"), "{out}");
+    assert!(out.contains("  friction       6 of 6 joints\n"), "{out}");
 }
 
 #[test]

@@ -33,6 +33,20 @@ pub enum TrajectoryError {
         /// The motion's blend, s.
         blend: f64,
     },
+    /// A joint would have to go where it cannot.
+    #[error("joint {} would be at {value:.6} rad (m) at {time:.3} s; its limits are {lower:.6} and {upper:.6}", joint + 1)]
+    Position {
+        /// The joint, from 0.
+        joint: usize,
+        /// When, s.
+        time: f64,
+        /// `q_i` there, rad (m).
+        value: f64,
+        /// The least `q_i` allowed, rad (m).
+        lower: f64,
+        /// The largest `q_i` allowed, rad (m).
+        upper: f64,
+    },
     /// A joint would have to be faster than it can.
     #[error("joint {} would need {value:.6} rad/s (m/s) at {time:.3} s; its limit is {limit:.6}", joint + 1)]
     Velocity {

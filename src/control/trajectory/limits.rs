@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use super::TrajectoryError;
+use crate::SerialChain;
 
 /// What the joints can do.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,14 @@ pub struct JointLimits<const N: usize> {
 }
 
 impl<const N: usize> JointLimits<N> {
+    /// Those of the arm's table, which knows velocities; accelerations and jerks have no limit.
+    pub fn of(chain: &SerialChain<N>) -> Self {
+        Self {
+            velocity: SVector::from_fn(|i, _| chain.joints[i].limits.velocity),
+            ..Self::none()
+        }
+    }
+
     /// No limit on any joint.
     pub fn none() -> Self {
         Self {

@@ -3,6 +3,7 @@
 mod error;
 mod limits;
 mod point_to_point;
+mod positions;
 mod profile;
 
 use nalgebra::SVector;
@@ -10,6 +11,7 @@ use nalgebra::SVector;
 pub use error::TrajectoryError;
 pub use limits::JointLimits;
 pub use point_to_point::PointToPoint;
+pub use positions::PositionLimits;
 pub use profile::{Profile, ProfileShape};
 
 /// Where the joints are and how they move.

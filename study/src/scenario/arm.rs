@@ -14,6 +14,8 @@ pub struct KnownArm {
     pub name: &'static str,
     /// Its joints, base first.
     pub joints: &'static [Joint],
+    /// What they are called, base first.
+    pub joint_names: &'static [&'static str],
 }
 
 /// The arm of a scenario.
@@ -44,6 +46,19 @@ impl ScenarioArm {
         match self {
             Self::Known(arm) => arm.joints,
             Self::Table { model, .. } => model.joints(),
+        }
+    }
+
+    /// A joint, counted from 0, as messages call it: by its number, and by its name where it has one.
+    pub fn joint_called(&self, joint: usize) -> String {
+        let name = match self {
+            Self::Known(arm) => arm.joint_names.get(joint).copied(),
+            Self::Table { model, .. } => model.joint_names().get(joint).map(String::as_str),
+        };
+        let number = format!("joint {}", joint + 1);
+        match name {
+            Some(name) if name != number => format!("{number} ({name})"),
+            _ => number,
         }
     }
 

@@ -7,7 +7,8 @@ use crate::tool_path::{StraightLine, ToolPath};
 use ulna::control::trajectory::TrajectoryError;
 use ulna::proof::random::SplitMix64;
 use ulna::{
-    Arm, JointLimits, JointState, PointToPoint, Profile, ProfileShape, TaskRows, Trajectory,
+    Arm, JointLimits, JointState, PointToPoint, PositionLimits, Profile, ProfileShape, TaskRows,
+    Trajectory,
 };
 
 /// A planned motion from rest to rest. Its lists have one entry for each joint of the same arm.
@@ -19,6 +20,8 @@ pub struct Motion {
     pub(super) max_velocity: Vec<f64>,
     pub(super) max_acceleration: Vec<f64>,
     pub(super) max_jerk: Vec<f64>,
+    /// The least and the largest q of each joint, by the arm's table.
+    pub(super) range: Vec<(f64, f64)>,
 }
 
 /// What moves in a straight line.
@@ -65,7 +68,7 @@ impl Motion {
         Ok(self)
     }
 
-    /// Largest |q̇_i|, rad/s (m/s); infinite where there is no limit.
+    /// Largest |q̇_i|, rad/s (m/s), the less of the scenario's and the arm's table's; infinite where there is no limit.
     pub fn max_velocity(&self) -> &[f64] {
         &self.max_velocity
     }
@@ -109,7 +112,7 @@ impl Motion {
     /// The motion for `arm`; the knots of a tool path are `knot_period` s apart.
     ///
     /// # Errors
-    /// When the motion cannot be executed: it is that of another arm, too fast for a joint, or leads through a singular pose.
+    /// When the motion cannot be executed: it is that of another arm, too fast or too far for a joint, or leads through a singular pose.
     pub fn plan<const N: usize>(
         &self,
         arm: &(impl Arm<N> + ?Sized),
@@ -121,9 +124,16 @@ impl Motion {
             acceleration: for_each_joint(&self.max_acceleration)?,
             jerk: for_each_joint(&self.max_jerk)?,
         };
+        let (lower, upper): (Vec<f64>, Vec<f64>) = self.range.iter().copied().unzip();
+        let range = PositionLimits {
+            lower: for_each_joint(&lower)?,
+            upper: for_each_joint(&upper)?,
+        };
+        range.admit(&start, 0.0)?;
         Ok(match &self.path {
             Path::Joint(goal) => {
                 let goal = for_each_joint(goal)?;
+                range.admit(&goal, self.duration())?;
                 let motion = PointToPoint::along(start, goal, self.profile, &limits)?;
                 PlannedMotion::Joint(motion)
             }
@@ -133,7 +143,10 @@ impl Motion {
                     profile: self.profile,
                     knot_period,
                 };
-                PlannedMotion::Tool(ToolPath::straight(arm, &start, &line, &limits)?)
+                let path = ToolPath::straight(arm, &start, &line, &limits)?;
+                path.states()
+                    .try_for_each(|(time, state)| range.admit(&state.q, time))?;
+                PlannedMotion::Tool(path)
             }
         })
     }

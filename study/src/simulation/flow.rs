@@ -29,17 +29,26 @@ pub struct Work {
     pub tool: f64,
     /// By gravity: minus the change of potential energy.
     pub gravity: f64,
+    /// By the joints' friction: never above 0.
+    pub friction: f64,
 }
 
 impl Work {
     /// All of it.
     pub fn total(&self) -> f64 {
-        self.motors + self.brakes + self.tool + self.gravity
+        self.motors + self.brakes + self.tool + self.gravity + self.friction
     }
 
-    /// The largest of the four, without its sign.
+    /// The largest of the five, without its sign.
     pub(super) fn largest(&self) -> f64 {
-        [self.motors, self.brakes, self.tool, self.gravity]
+        let Self {
+            motors,
+            brakes,
+            tool,
+            gravity,
+            friction,
+        } = *self;
+        [motors, brakes, tool, gravity, friction]
             .into_iter()
             .fold(0.0, |largest, work| work.abs().max(largest))
     }
@@ -54,6 +63,7 @@ impl Add for Work {
             brakes: self.brakes + other.brakes,
             tool: self.tool + other.tool,
             gravity: self.gravity + other.gravity,
+            friction: self.friction + other.friction,
         }
     }
 }
@@ -67,6 +77,7 @@ impl Mul<f64> for Work {
             brakes: self.brakes * factor,
             tool: self.tool * factor,
             gravity: self.gravity * factor,
+            friction: self.friction * factor,
         }
     }
 }
@@ -87,7 +98,8 @@ impl<const N: usize> Flow<N> {
         [&self.q, &self.qd, &self.momentum, &self.brake_impulse]
             .into_iter()
             .flat_map(|vector| vector.iter().copied())
-            .chain([work.motors, work.brakes, work.tool, work.gravity])
+            .chain([work.motors, work.brakes, work.tool])
+            .chain([work.gravity, work.friction])
     }
 }
 

@@ -3,9 +3,9 @@
 //! The impact torque of Eq. 1–12 assumes that the healthy joints keep their planned motion through the lock.
 //! Here nothing is assumed: the arm obeys
 //!
-//! `(M + R) q̈ + c(q, q̇) + g(q) + Jᵀ F_e = τ_motor + τ_brake`,
+//! `(M + R) q̈ + c(q, q̇) + g(q) + f(q̇) + Jᵀ F_e = τ_motor + τ_brake`,
 //!
-//! with `F_e` the wrench that the tool exerts on its surroundings and R the inertia of the rotors behind their gears; motors give what the [`Controller`] asks for (computed torque
+//! with `f` the joints' friction, `F_e` the wrench that the tool exerts on its surroundings and R the inertia of rotors behind their gears that M has not in it; motors give what the [`Controller`] asks for (computed torque
 //! along the planned motion, plus compensation), and the brakes take their joints to rest in a finite time and hold them.
 //! A braked joint's acceleration is given, so that it is eliminated from the equations and its torque computed: exact, without a penalty.
 //! The limit of ever shorter brakes is the impulse of [`ideal_lock`].
@@ -88,7 +88,8 @@ pub struct Simulation<'a, P: ?Sized, A: ?Sized, T, W, const N: usize> {
     pub control: Control,
     /// The failure.
     pub brake: Brake<N>,
-    /// R, the inertia of each joint's rotor as the joint feels it: its own times the square of its gear's ratio, kg·m² (kg).
+    /// R, the inertia of each joint's rotor as the joint feels it: its own times the square of its gear's ratio, kg·m² (kg);
+    /// 0 where the plant's table has the rotor, and with it M ([`ulna::Motor`]).
     /// Controllers know it, and give what its planned acceleration takes on top of their torque; rated torques are about the latter.
     pub reflected_inertia: SVector<f64, N>,
 }

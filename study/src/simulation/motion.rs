@@ -61,7 +61,7 @@ where
 {
     /// The instant `elapsed` s after the failure.
     ///
-    /// `(M + R) q̈ + c + g + Jᵀ F_e = τ_motor + τ_brake`, in which a braked joint's q̈ is given and its `τ_brake` asked for.
+    /// `(M + R) q̈ + c + g + f + Jᵀ F_e = τ_motor + τ_brake`, in which a braked joint's q̈ is given and its `τ_brake` asked for.
     pub(super) fn instant(&self, elapsed: f64, flow: &Flow<N>, phase: &Phase<N>) -> Instant<N> {
         let wrench = (self.wrench)(self.brake.failure.time + elapsed);
         let command = match phase.command {
@@ -75,7 +75,8 @@ where
         let mass_matrix = mass_matrix + SMatrix::from_diagonal(&self.reflected_inertia);
         let gravity = self.plant.gravity_torque(q);
         let tool = self.plant.geometric_jacobian(q).tr_mul(&-wrench);
-        let applied = motor + tool - self.plant.bias_force(q, qd);
+        let friction = self.plant.friction_torque(qd);
+        let applied = motor + tool - self.plant.bias_force(q, qd) - friction;
 
         let (braked, given) = self.braked(elapsed, phase);
         let free = braked.without(&(applied - mass_matrix * given));
@@ -96,13 +97,14 @@ where
             slope: Flow {
                 q: *qd,
                 qd: qdd,
-                momentum: motor + brake + tool - gravity + kinetic_gradient,
+                momentum: motor + brake + tool - gravity - friction + kinetic_gradient,
                 brake_impulse: brake,
                 work: Work {
                     motors: motor.dot(qd),
                     brakes: brake.dot(qd),
                     tool: tool.dot(qd),
                     gravity: -gravity.dot(qd),
+                    friction: -friction.dot(qd),
                 },
             },
         }

@@ -18,6 +18,7 @@ fn scenario(edits: &[(&str, &str)]) -> Scenario {
     let known = KnownArm {
         name: "ssrms",
         joints: &Ssrms::CHAIN.joints,
+        joint_names: &Ssrms::JOINT_NAMES,
     };
     let text = include_str!("../../../scenarios/paper_like.toml").to_owned();
     let edits = [("cycle = 0.01", "cycle = 1")].iter().chain(edits);

@@ -150,6 +150,7 @@ fn a_tool_path_is_compared_alike() {
     let known = ulna_study::scenario::KnownArm {
         name: "ssrms",
         joints: &Ssrms::CHAIN.joints,
+        joint_names: &Ssrms::JOINT_NAMES,
     };
     let scenario =
         ulna_study::Scenario::parse(&text, "tool.toml", std::path::Path::new(""), &[known])

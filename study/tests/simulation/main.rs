@@ -2,6 +2,7 @@
 
 mod balance;
 mod brakes;
+mod friction;
 mod healthy_joints;
 mod peaks;
 mod rotors;

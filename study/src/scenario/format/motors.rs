@@ -11,7 +11,8 @@ pub(in crate::scenario) const DEFAULT_RATIO: f64 = 1.0;
 pub(super) static MOTORS: Section = Section {
     header: "[motors]",
     meaning: "At most once: what turns behind the gears where the lock is simulated. A joint's motor takes rotor_inertia times ratio^2 \
-              to accelerate, and what goes into that does not reach the structure",
+              to accelerate, and what goes into that does not reach the structure. An arm whose table has motors has them in all of its dynamics, \
+              and needs none here",
     example: "[motors]\nrotor_inertia = 1e-4\nratio = [100.0, 160.0]\n",
     keys: &[&ROTOR_INERTIA, &RATIO],
 };

@@ -26,6 +26,7 @@ struct Reader<'s> {
     /// How many joints the arm has; `None` as long as it is not known.
     joint_count: Option<usize>,
     joints: Option<&'s [Joint]>,
+    arm: Option<&'s ScenarioArm>,
     unit: Option<AngleUnit>,
 }
 
@@ -39,6 +40,7 @@ impl ScenarioTable {
                 None => self.motion.as_ref().and_then(MotionTable::joint_count),
             },
             joints: arm.as_ref().map(ScenarioArm::joints),
+            arm: arm.as_ref(),
             unit: self.angle_unit,
         };
         let motion = self.motion.as_ref().and_then(|table| reader.motion(table));

@@ -8,9 +8,12 @@ use crate::scenario::format::bounds::{DURATION, JERK, POSITION, RATE, TOOL_DURAT
 use crate::scenario::format::motion as format;
 use crate::scenario::motion::{Motion, Path};
 use crate::scenario::read::{Angles, List, MotionTable, Numbers, PathTable, ProfileWord};
-use ulna::{Joint, JointKind, Profile, ProfileShape};
+use ulna::{Joint, JointKind, Limits, Profile, ProfileShape};
 use ulna_table::AngleUnit;
 use ulna_table::toml_reader::{Bound, Located};
+
+/// What counts as rounding beyond a limit, rad (m).
+const ROUNDING: f64 = 1e-9;
 
 impl MotionTable {
     /// How many joints the motion is for, if its lists agree about it.
@@ -45,7 +48,7 @@ impl Reader<'_> {
         let blend = table.blend.as_ref();
         let blend = blend.and_then(|blend| self.blend(blend, duration));
         let profile = self.profile(table, duration, blend);
-        let max_velocity = self.limits(&table.max_velocity, &RATE);
+        let max_velocity = self.velocities(&table.max_velocity);
         let max_acceleration = self.limits(&table.max_acceleration, &RATE);
         let max_jerk = self.limits(&table.max_jerk, &JERK);
         Some(Motion {
@@ -55,6 +58,11 @@ impl Reader<'_> {
             max_velocity: max_velocity?,
             max_acceleration: max_acceleration?,
             max_jerk: max_jerk?,
+            range: self
+                .joints?
+                .iter()
+                .map(|joint| (joint.limits.lower, joint.limits.upper))
+                .collect(),
         })
     }
 
@@ -120,9 +128,54 @@ impl Reader<'_> {
             Angles::Q => Some(0.0),
         };
         let values = values.iter().zip(joints);
-        values
+        let positions: Option<Vec<f64>> = values
             .map(|(value, joint)| Some(value - zero(joint)?))
-            .collect()
+            .collect();
+        let positions = positions?;
+        self.within_limits(list.as_ref()?, &positions)?;
+        Some(positions)
+    }
+
+    /// Refuses positions that the arm's table rules out, each at its number.
+    fn within_limits(&self, list: &Located<Numbers>, positions: &[f64]) -> Option<()> {
+        let arm = self.arm?;
+        let mut sound = Some(());
+        for (index, (joint, q)) in arm.joints().iter().zip(positions).enumerate() {
+            let Limits { lower, upper, .. } = joint.limits;
+            if lower - ROUNDING <= *q && *q <= upper + ROUNDING {
+                continue;
+            }
+            let (unit, factor) = match (joint.kind, self.unit) {
+                (JointKind::Prismatic, _) => ("m", 1.0),
+                (JointKind::Revolute, Some(AngleUnit::Degrees)) => ("deg", 1_f64.to_degrees()),
+                (JointKind::Revolute, _) => ("rad", 1.0),
+            };
+            let place = list.value.get(index).and_then(Option::as_ref);
+            let span = place.map_or(&list.span, |number| &number.span);
+            let message = format!("{} is beyond the limits of the arm", list.name);
+            let shown = |value: f64| (value * factor * 1e6).round() / 1e6;
+            let label = format!("q of {} would be {}", arm.joint_called(index), shown(*q));
+            let (least, most) = (shown(lower), shown(upper));
+            let range = match (lower.is_finite(), upper.is_finite()) {
+                (true, true) => format!("{least} to {most}"),
+                (true, false) => format!("at least {least}"),
+                _ => format!("at most {most}"),
+            };
+            let help =
+                format!("its table allows {range} {unit}, measured from the table's configuration");
+            self.refuse(span, message, label, help);
+            sound = None;
+        }
+        sound
+    }
+
+    /// Limits of velocities: those of the arm's table too.
+    fn velocities(&self, list: &List) -> Option<Vec<f64>> {
+        let mut velocities = self.limits(list, &RATE)?;
+        for (velocity, joint) in velocities.iter_mut().zip(self.joints?) {
+            *velocity = velocity.min(joint.limits.velocity);
+        }
+        Some(velocities)
     }
 
     /// Limits of rates; infinite without a list.
