@@ -7,6 +7,7 @@
 
 mod finite_difference;
 mod kinematics;
+mod lock;
 pub mod literal;
 mod manipulability;
 mod mass_matrix;
@@ -112,5 +113,14 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         tau: &SVector<f64, N>,
     ) -> SVector<f64, N> {
         mass_matrix::factor(self.mass_matrix(q)).solve(&(tau - self.bias_force(q, qd)))
+    }
+
+    fn lock_impacts(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SMatrix<f64, N, N> {
+        self.impacts_of_each_lock(q, qd, qdd)
     }
 }

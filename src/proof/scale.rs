@@ -81,6 +81,20 @@ impl<const N: usize> Scale<N> {
         self.inertia * (accelerated + turned + self.gravity)
     }
 
+    /// What the terms of each joint's impact torque may amount to, N·m (N), if `joint` locks in the motion `(q̇, q̈)`:
+    /// those of [`torque`](Self::torque) that have its rate or its acceleration in them.
+    pub(super) fn impact(
+        &self,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+        joint: usize,
+    ) -> SVector<f64, N> {
+        let speed: f64 = qd.iter().map(|x| x.abs()).sum();
+        let accelerated = self.inertia[joint] * qdd[joint].abs();
+        let turned = self.inertia.amax() * 2.0 * speed * qd[joint].abs();
+        self.inertia * (accelerated + turned)
+    }
+
     /// The unit of ∂/∂q_i: 1 for an angle, the chain's length for an offset.
     pub(super) fn unit(&self, chain: &SerialChain<N>, joint: usize) -> f64 {
         match chain.joints[joint].kind {

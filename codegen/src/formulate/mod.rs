@@ -9,6 +9,7 @@ pub(crate) mod chain;
 pub(crate) mod factorization;
 pub(crate) mod inverse_dynamics;
 pub(crate) mod kinematics;
+pub(crate) mod lock_impacts;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
@@ -20,6 +21,7 @@ use ulna::Method;
 use self::chain::Chain;
 use self::inverse_dynamics::inverse_dynamics;
 use self::kinematics::{jacobian_derivatives, jacobian_in_world, pose};
+use self::lock_impacts::lock_impacts;
 use self::mass_matrix::mass_matrix;
 use self::mass_matrix_derivatives::mass_matrix_derivatives;
 use self::task::{manipulability_alone, manipulability_and_gradient};
@@ -81,6 +83,7 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
         Method::BiasForce => vec![torque(chain, &chain.inputs(Input::Qd), &zeros(chain))],
         Method::GravityTorque => vec![torque(chain, &zeros(chain), &zeros(chain))],
         Method::ForwardDynamics => forward_dynamics(chain),
+        Method::LockImpacts => vec![impacts(chain)],
         Method::MassMatrixAndDerivatives => vec![mass(chain), derivatives_of_mass(chain)],
         Method::JacobianAndGradient => {
             let mut outputs = vec![jacobian(chain, choices)];
@@ -141,6 +144,11 @@ fn inverse_mass<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
 fn torque<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Output<Expr<'g>> {
     let elements = inverse_dynamics(chain, qd, qdd);
     Output::new("torque", &[chain.joint_count()], elements)
+}
+
+fn impacts<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
+    let n = chain.joint_count();
+    Output::new("impacts", &[n, n], lock_impacts(chain).concat())
 }
 
 fn forward_dynamics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
