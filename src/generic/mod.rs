@@ -7,8 +7,8 @@
 
 mod finite_difference;
 mod kinematics;
-mod lock;
 pub mod literal;
+mod lock;
 mod manipulability;
 mod mass_matrix;
 mod newton_euler;

@@ -48,7 +48,8 @@ pub enum Weighting {
 /// The on-line law: before each lock the U that leaves the least of the step, in the mean over the joints at risk (the equations stand
 /// at the module's head); after it [`recourse`](Self::recourse), the torque nearest to that before.
 ///
-/// It needs no plan, no failure time and no search: one cycle's state, and N + 1 inverse dynamics. The static tool force is kept exactly.
+/// It needs no plan, no failure time and no search: one cycle's state, and what each joint's lock would do in it ([`Arm::lock_impacts`]).
+/// The static tool force is kept exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OnLine<const N: usize> {
     /// `w_k`: how much each joint is at risk, e.g. its probability to lock; what is not above 0 and finite is no risk.
@@ -107,13 +108,13 @@ impl<const N: usize> OnLine<N> {
             return SVector::zeros();
         }
         let state = locked.hold(state);
-        let torque = arm.inverse_dynamics(&state.q, &state.qd, &state.qdd);
+        // Δτ is before minus after, and the step after minus before.
+        let impacts = arm.lock_impacts(&state.q, &state.qd, &state.qdd);
         let mut risks = [Risk::none(); N];
         for joint in locked.healthy() {
             let weight = self.weights[joint];
             if weight > 0.0 && weight.is_finite() {
-                let next = hold_one(&state, joint);
-                let step = arm.inverse_dynamics(&next.q, &next.qd, &next.qdd) - torque;
+                let step = -impacts.column(joint);
                 risks[joint] = Risk::new(joint, weight, &locked.without(&step), pose);
             }
         }
@@ -240,14 +241,6 @@ impl<const N: usize> Risk<N> {
             step_squared: step.norm_squared(),
         }
     }
-}
-
-/// `state` with one joint more at rest.
-fn hold_one<const N: usize>(state: &JointState<N>, joint: usize) -> JointState<N> {
-    let mut held = *state;
-    held.qd[joint] = 0.0;
-    held.qdd[joint] = 0.0;
-    held
 }
 
 /// [`Weighting::Relative`].
