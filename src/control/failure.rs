@@ -66,7 +66,7 @@ impl<const N: usize> LockedJoints<N> {
     }
 
     /// The joints that still move, counted from 0.
-    pub fn healthy(self) -> impl Iterator<Item = usize> {
+    pub fn healthy(self) -> impl Iterator<Item = usize> + Clone {
         (0..N).filter(move |joint| !self.contains(*joint))
     }
 
@@ -171,7 +171,8 @@ pub fn impact_torque<const N: usize>(
     let transforms = chain.link_transforms(&state.q);
     let healthy = locked.hold(state);
     let delta = [state.qd - healthy.qd, state.qdd - healthy.qdd];
-    let loads = chain.load_deviations(&transforms, &state.qd, &delta, delta_wrench);
+    let delta_tool = chain.in_tool_frame(&transforms, delta_wrench);
+    let loads = chain.load_deviations(&transforms, &state.qd, &delta, delta_tool);
     ImpactTorque {
         loads,
         torque: chain.along_axes(&loads),

@@ -58,7 +58,7 @@ impl<const N: usize> SerialChain<N> {
                 stopped[k] = motion[k];
                 stopped
             });
-            let loads = self.load_deviations(&transforms, qd, &delta, &Vector6::zeros());
+            let loads = self.load_deviations(&transforms, qd, &delta, JointLoad::default());
             // A rotor behind a rigid gear would add its reflected inertia times q̈_k to entry (k, k).
             impacts.set_column(k, &self.along_axes(&loads));
         }
@@ -67,17 +67,37 @@ impl<const N: usize> SerialChain<N> {
 
     /// `Δf_i` and `Δn_i` of every joint (Eq. 9–11) for the deviations `delta` = `[Δq̇, Δq̈]` of the joints.
     ///
-    /// `delta_wrench` is `ΔF_e`, the wrench `[f; n]` that the tool exerts on its surroundings, before minus after,
-    /// world axes, at the tool point.
+    /// `delta_tool` is `ΔF_e`, what the tool exerts on its surroundings, before minus after, in its own frame:
+    /// [`in_tool_frame`](Self::in_tool_frame).
     pub(crate) fn load_deviations(
         &self,
         transforms: &[IsometryMatrix3<f64>; N],
         qd: &SVector<f64, N>,
         delta: &[SVector<f64, N>; 2],
-        delta_wrench: &Vector6<f64>,
+        delta_tool: JointLoad,
     ) -> [JointLoad; N] {
         let loads = self.link_deviations(transforms, qd, delta);
-        self.joint_deviations(transforms, &loads, delta_wrench)
+        self.joint_deviations(transforms, &loads, delta_tool)
+    }
+
+    /// A wrench `[f; n]` of world axes, at the tool point, in the tool's frame.
+    pub(crate) fn in_tool_frame(
+        &self,
+        transforms: &[IsometryMatrix3<f64>; N],
+        wrench: &Vector6<f64>,
+    ) -> JointLoad {
+        let world_from_tool = transforms
+            .iter()
+            .fold(self.base.isometry(), |world_from_last, transform| {
+                world_from_last * transform
+            })
+            .rotation
+            * self.tool.isometry().rotation;
+        let tool_from_world = world_from_tool.inverse();
+        JointLoad {
+            force: tool_from_world * wrench.fixed_rows::<3>(0).into_owned(),
+            moment: tool_from_world * wrench.fixed_rows::<3>(3).into_owned(),
+        }
     }
 
     /// What the motors bear of `loads` (Eq. 12).
@@ -145,24 +165,11 @@ impl<const N: usize> SerialChain<N> {
         &self,
         transforms: &[IsometryMatrix3<f64>; N],
         loads: &[JointLoad; N],
-        delta_wrench: &Vector6<f64>,
+        delta_tool: JointLoad,
     ) -> [JointLoad; N] {
         let mut deviations = [JointLoad::default(); N];
         // The tool stands for frame N+1.
-        let tool = self.tool.isometry();
-        let tool_from_world = transforms
-            .iter()
-            .fold(self.base.isometry(), |world_from_last, transform| {
-                world_from_last * transform
-            })
-            .rotation
-            * tool.rotation;
-        let tool_from_world = tool_from_world.inverse();
-        let mut next = JointLoad {
-            force: tool_from_world * delta_wrench.fixed_rows::<3>(0).into_owned(),
-            moment: tool_from_world * delta_wrench.fixed_rows::<3>(3).into_owned(),
-        };
-        let mut from_next = tool;
+        let (mut next, mut from_next) = (delta_tool, self.tool.isometry());
         for i in (0..N).rev() {
             let com = Vector3::from(self.joints[i].link.com);
             let force = from_next.rotation * next.force;

@@ -108,15 +108,21 @@ impl<const N: usize> OnLine<N> {
             return SVector::zeros();
         }
         let state = locked.hold(state);
-        // Δτ is before minus after, and the step after minus before.
-        let impacts = arm.lock_impacts(&state.q, &state.qd, &state.qdd);
+        let at_risk = locked.healthy().filter(|joint| {
+            let weight = self.weights[*joint];
+            weight > 0.0 && weight.is_finite()
+        });
+        // For one joint alone two inverse dynamics are less.
+        let several = at_risk.clone().nth(1).is_some();
+        let impacts = several.then(|| arm.lock_impacts(&state.q, &state.qd, &state.qdd));
         let mut risks = [Risk::none(); N];
-        for joint in locked.healthy() {
-            let weight = self.weights[joint];
-            if weight > 0.0 && weight.is_finite() {
-                let step = -impacts.column(joint);
-                risks[joint] = Risk::new(joint, weight, &locked.without(&step), pose);
-            }
+        for joint in at_risk {
+            // Δτ is before minus after, and the step after minus before.
+            let step = match &impacts {
+                Some(impacts) => -impacts.column(joint),
+                None => -impact(arm, &state, joint),
+            };
+            risks[joint] = Risk::new(joint, self.weights[joint], &locked.without(&step), pose);
         }
         if let Weighting::Relative { floor } = self.weighting {
             make_relative(&mut risks, floor);
@@ -241,6 +247,20 @@ impl<const N: usize> Risk<N> {
             step_squared: step.norm_squared(),
         }
     }
+}
+
+/// Δτ of a lock of `joint`: its column of [`Arm::lock_impacts`].
+#[inline]
+fn impact<const N: usize>(
+    arm: &(impl Arm<N> + ?Sized),
+    state: &JointState<N>,
+    joint: usize,
+) -> SVector<f64, N> {
+    let mut held = *state;
+    held.qd[joint] = 0.0;
+    held.qdd[joint] = 0.0;
+    arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
+        - arm.inverse_dynamics(&held.q, &held.qd, &held.qdd)
 }
 
 /// [`Weighting::Relative`].
