@@ -149,6 +149,17 @@ macro_rules! methods {
             { batch friction_torque_batch from 2 }
             { error frictions }
 
+            /// Joint impact torques Δτ of a lock, N·m, before minus after (Eq. 1–12): column k holds those of all joints
+            /// if joint k alone stopped dead now, `Δτ = τ(q, q̇, q̈) − τ(q, q̇ − q̇_k e_k, q̈ − q̈_k e_k)` with τ the inverse dynamics.
+            ///
+            /// N×N, without a change of the tool wrench. The column of a joint at rest is exactly 0. Of any set of joints that lock at once
+            /// it is [`impact_torque`](crate::control::failure::impact_torque) that knows.
+            LockImpacts = lock_impacts(q, qd, qdd) -> $crate::nalgebra::SMatrix<f64, $n, $n>
+            { kernel "Joint impact torques, N×N, N·m: column k if joint k locks, before minus after."
+              lock_impacts_kernel -> [[R; $n]; $n] }
+            { batch lock_impacts_batch from 2 }
+            { error lock_impacts }
+
             /// M and all ∂M/∂q_i in one call.
             MassMatrixAndDerivatives = mass_matrix_and_derivatives(q)
                 -> ($crate::nalgebra::SMatrix<f64, $n, $n>, [$crate::nalgebra::SMatrix<f64, $n, $n>; $n])

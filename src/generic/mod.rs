@@ -9,6 +9,7 @@ mod finite_difference;
 mod friction;
 mod kinematics;
 pub mod literal;
+mod lock;
 mod manipulability;
 mod mass_matrix;
 mod newton_euler;
@@ -140,5 +141,14 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
     }
     fn friction_torque(&self, qd: &SVector<f64, N>) -> SVector<f64, N> {
         self.friction(qd)
+    }
+
+    fn lock_impacts(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SMatrix<f64, N, N> {
+        self.impacts_of_each_lock(q, qd, qdd)
     }
 }

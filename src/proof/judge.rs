@@ -237,6 +237,20 @@ impl<'a, const N: usize> Judge<'a, N> {
         self.reference.friction_torque(&self.state.qd).abs()
     }
 
+    /// Column by column, each by what the terms of its own sums can amount to: none in that of a joint at rest.
+    pub(super) fn lock_impacts(
+        &self,
+        found: Square<N>,
+        expected: impl FnOnce() -> Square<N>,
+    ) -> Verdict {
+        let difference = found - expected();
+        let error = |k: usize| {
+            let sizes = self.scale.impact(&self.state.qd, &self.state.qdd, k);
+            Scale::torques(&sizes, &difference.column(k).into_owned())
+        };
+        rounded::<N>((0..N).map(error).fold(0.0, worse))
+    }
+
     fn torques_of(
         &self,
         qd: &Vector<N>,

@@ -4,6 +4,7 @@
 //! `cargo test --test oracle -- --nocapture` prints the largest errors.
 
 mod dynamics;
+mod lock;
 mod manipulability;
 mod payload;
 
@@ -129,6 +130,11 @@ macro_rules! both {
         #[test]
         fn dynamics() {
             crate::dynamics::agrees($backend, $name, &$arm);
+        }
+
+        #[test]
+        fn lock() {
+            crate::lock::agrees($backend, $name, &$arm);
         }
 
         #[test]

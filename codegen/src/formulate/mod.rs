@@ -11,6 +11,7 @@ pub(crate) mod friction;
 pub(crate) mod inverse_dynamics;
 pub(crate) mod kinematics;
 pub(crate) mod legend;
+pub(crate) mod lock_impacts;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
@@ -25,6 +26,7 @@ use self::inverse_dynamics::{
     Wrench, inverse_dynamics, inverse_dynamics_with_load, load_of_wrench,
 };
 use self::kinematics::{jacobian_derivatives, jacobian_in_world, pose};
+use self::lock_impacts::lock_impacts;
 use self::mass_matrix::mass_matrix;
 use self::mass_matrix_derivatives::mass_matrix_derivatives;
 use self::task::{manipulability_alone, manipulability_and_gradient};
@@ -132,6 +134,7 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
             let friction = friction(chain, &chain.inputs(Input::Qd));
             vec![torques(chain, named(friction, "friction"))]
         }
+        Method::LockImpacts => vec![impacts(chain)],
         Method::MassMatrixAndDerivatives => vec![mass(chain), derivatives_of_mass(chain)],
         Method::JacobianAndGradient => {
             let mut outputs = vec![jacobian(chain, choices)];
@@ -219,6 +222,11 @@ fn named<'g>(values: Vec<Expr<'g>>, family: &'static str) -> Vec<Expr<'g>> {
 fn torques<'g>(chain: &Chain<'g>, elements: Vec<Expr<'g>>) -> Output<Expr<'g>> {
     let elements = named(elements, "tau");
     Output::new("torque", &[chain.joint_count()], elements)
+}
+
+fn impacts<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
+    let n = chain.joint_count();
+    Output::new("impacts", &[n, n], lock_impacts(chain).concat())
 }
 
 fn unloaded<'g>(chain: &Chain<'g>) -> Wrench<'g> {

@@ -10,6 +10,7 @@ mod exponentials;
 pub(crate) mod drives;
 pub(crate) mod dynamics;
 pub(crate) mod kinematics;
+pub(crate) mod lock;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod totality;
@@ -39,6 +40,10 @@ macro_rules! conformance {
             drives::rotors_add_to_the_diagonal_of_the_mass_matrix
             drives::friction_is_its_closed_form
             drives::nothing_else_sees_rotors_and_friction
+            lock::lock_impacts_are_those_of_the_papers_recursion
+            lock::lock_impacts_are_differences_of_inverse_dynamics
+            lock::a_lock_of_a_joint_at_rest_changes_nothing
+            lock::lock_impacts_have_the_parts_of_inverse_dynamics
             manipulability::manipulability_is_that_of_its_own_jacobian_and_mass_matrix
             manipulability::manipulability_gradient_agrees_with_differences
             manipulability::manipulability_agrees_with_dual_numbers
