@@ -67,7 +67,7 @@ mod kernels;
 pub mod proof;
 
 pub use arm::methods::{Argument, Method};
-pub use arm::{Angle, Arm, Joint, JointKind, Link, Placement, TaskRow, TaskRows};
+pub use arm::{Angle, Arm, Joint, JointKind, Link, Parameter, Placement, TaskRow, TaskRows};
 pub use control::compensation::{
     Compensation, Controller, Cycle, Law, OnLine, Projector, Status, Weighting,
 };

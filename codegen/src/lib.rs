@@ -15,6 +15,7 @@
 //! - [`compile_arms`] and [`compile_folder`]: for build scripts. The crate `ulna-macros` does it without one, the program `ulna` by hand.
 //! - [`generate`]: a [`Model`] in, [`Generated`] code out, as text or tokens.
 //! - [`compile`]: the [`Program`]s that code is printed from, for whoever prints them in another way.
+//! - [`BaseParameters`]: which combinations of inertial parameters an arm's torques depend on.
 //! - [`Interpreter`]: an arm that runs its programs without a compiler, in `f64` or in 106 bits.
 //!
 //! There are no features.
@@ -31,6 +32,7 @@
 //! | emit | programs | Rust |
 
 mod accuracy;
+mod base_parameters;
 mod build;
 mod choose;
 mod cost;
@@ -51,6 +53,7 @@ use ulna::Method;
 use ulna_table::Model;
 
 pub use accuracy::Conditioned;
+pub use base_parameters::{BaseParameter, BaseParameters, Term};
 pub use build::{Error, compile_arms, compile_folder};
 pub use cost::Counts;
 pub use double_double::DoubleDouble;
@@ -88,6 +91,8 @@ impl MethodProgram {
 pub struct Compiled {
     /// Every method, in the order of [`Method::ALL`].
     pub methods: Vec<MethodProgram>,
+    /// Which columns of the regressor the base regressor keeps, and why.
+    pub base_parameters: BaseParameters,
     /// At how many states, random ones and near-singular ones, their errors were measured.
     pub states: [usize; 2],
     /// How exact w_D and ∇w_D are; `None` if they are 0 everywhere.
@@ -107,7 +112,11 @@ pub fn generate(model: &Model, source: &str) -> Generated {
 /// Every method of [`ulna::Arm`] as a program.
 pub fn compile(model: &Model) -> Compiled {
     let states = TestStates::new(model);
-    let choices = choose(model, &states);
+    let base_parameters = BaseParameters::of(model);
+    let choices = Choices {
+        base: base_parameters.columns(),
+        ..choose(model, &states)
+    };
     let methods = Method::ALL.iter().map(|method| {
         let program = compile_method(model, *method, choices);
         MethodProgram {
@@ -120,6 +129,7 @@ pub fn compile(model: &Model) -> Compiled {
     Compiled {
         conditioned: conditioned(model, &methods, choices, &states),
         methods,
+        base_parameters,
         states: [states.random(), states.near_singular],
         warnings: warnings_of(&states),
     }

@@ -6,6 +6,7 @@ pub mod bounds;
 pub(crate) mod coordinates;
 mod description;
 pub(crate) mod methods;
+mod parameters;
 pub(crate) mod quantity;
 pub mod singular;
 mod task;
@@ -15,6 +16,7 @@ use nalgebra::SVector;
 pub use angle::Angle;
 pub use coordinates::{PLAIN_LIMIT, PRISMATIC_LIMIT};
 pub use description::{Joint, JointKind, Link, Placement};
+pub use parameters::Parameter;
 pub use task::{TaskRow, TaskRows};
 
 macro_rules! define_arm {

@@ -12,6 +12,7 @@ mod manipulability;
 mod mass_matrix;
 mod newton_euler;
 mod orthogonal;
+mod regressor;
 
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 
@@ -112,5 +113,23 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         tau: &SVector<f64, N>,
     ) -> SVector<f64, N> {
         mass_matrix::factor(self.mass_matrix(q)).solve(&(tau - self.bias_force(q, qd)))
+    }
+
+    fn regressor(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> [SMatrix<f64, N, 10>; N] {
+        self.regressor_at(q, qd, qdd)
+    }
+
+    fn base_regressor(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> [SMatrix<f64, N, 10>; N] {
+        self.base_regressor_at(q, qd, qdd)
     }
 }

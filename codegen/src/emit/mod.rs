@@ -1,5 +1,6 @@
 //! Programs as Rust: the only place that knows the language's syntax.
 
+mod base_parameters;
 mod chain;
 mod expression;
 mod kernel;
@@ -73,6 +74,7 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
     let joints = model.joints().len();
     let summary = format!(" The arm `{}`: {joints} joints, unrolled.", model.name());
     let chain = chain::chain(model);
+    let base_parameters = base_parameters::base_parameters(&compiled.base_parameters);
     let n = Literal::usize_unsuffixed(joints);
     let kernels = compiled
         .methods
@@ -87,6 +89,8 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
         #[rustfmt::skip]
         impl #name {
             #chain
+
+            #base_parameters
         }
 
         #[rustfmt::skip]

@@ -12,16 +12,18 @@ pub(crate) mod kinematics;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
+pub(crate) mod regressor;
 pub(crate) mod task;
 pub(crate) mod vector;
 
-use ulna::Method;
+use ulna::{Method, Parameter};
 
 use self::chain::Chain;
 use self::inverse_dynamics::inverse_dynamics;
 use self::kinematics::{jacobian_derivatives, jacobian_in_world, pose};
 use self::mass_matrix::mass_matrix;
 use self::mass_matrix_derivatives::mass_matrix_derivatives;
+use self::regressor::{Columns, regressor_columns};
 use self::task::{manipulability_alone, manipulability_and_gradient};
 use crate::graph::{Expr, Input};
 use crate::schedule::{Output, Size};
@@ -45,6 +47,8 @@ pub struct Choices {
     pub articulated: bool,
     /// Whether the task is singular in every configuration, so that w_D is 0 there.
     pub singular: bool,
+    /// Which columns of the regressor are those of base parameters.
+    pub base: Columns,
 }
 
 /// As the table says.
@@ -59,6 +63,7 @@ impl Default for Choices {
             passes: 2,
             articulated: false,
             singular: false,
+            base: Columns::default(),
         }
     }
 }
@@ -87,6 +92,8 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
             outputs.extend(manipulability_and_gradient(chain, choices));
             outputs
         }
+        Method::Regressor => vec![regressor(chain, Columns::default())],
+        Method::BaseRegressor => vec![regressor(chain, choices.base)],
     }
 }
 
@@ -153,4 +160,10 @@ fn forward_dynamics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
         &[chain.joint_count()],
         elements,
     )]
+}
+
+fn regressor<'g>(chain: &Chain<'g>, columns: Columns) -> Output<Expr<'g>> {
+    let n = chain.joint_count();
+    let elements = regressor_columns(chain, columns).concat().concat();
+    Output::new("regressor", &[n, Parameter::COUNT, n], elements)
 }
