@@ -15,8 +15,8 @@ const STATES: usize = 12;
 /// What is left of a column that depends on others, relative to what its terms can amount to, at most.
 const DEPENDENT: f64 = 1e-9;
 
-/// Where a column's regressor is stacked over all states.
-type Column<const N: usize> = [SVector<f64, N>; STATES];
+/// A column of Y at all states, one below the other.
+type Column<const N: usize> = [[f64; N]; STATES];
 
 impl<const N: usize> SerialChain<N> {
     /// `Y_i = J_iᵀ A_i`, with the geometric Jacobian J_i at the origin of link i's frame, and A_i the wrenches about that origin that
@@ -126,11 +126,10 @@ impl<const N: usize> SerialChain<N> {
                         for other in &Parameter::BASE_ORDER[..earlier] {
                             if is_kept[other.index()] {
                                 let direction = &columns[link][other.index()];
-                                let along = -dot(direction, &column);
-                                column
-                                    .iter_mut()
-                                    .zip(direction)
-                                    .for_each(|(x, unit)| x.axpy(along, unit, 1.0));
+                                let along = dot(direction, &column);
+                                let pairs = column.as_flattened_mut().iter_mut();
+                                let pairs = pairs.zip(direction.as_flattened());
+                                pairs.for_each(|(x, unit)| *x -= along * unit);
                             }
                         }
                     }
@@ -138,7 +137,7 @@ impl<const N: usize> SerialChain<N> {
                 let length = Real::sqrt(dot(&column, &column));
                 if length > DEPENDENT {
                     kept[i][parameter.index()] = true;
-                    columns[i][parameter.index()] = column.map(|x| x / length);
+                    columns[i][parameter.index()] = column.map(|row| row.map(|x| x / length));
                 }
             }
         }
@@ -147,7 +146,7 @@ impl<const N: usize> SerialChain<N> {
 
     /// Y's columns at all states, one below the other, relative to what their terms can amount to.
     fn stacked(&self) -> [[Column<N>; Parameter::COUNT]; N] {
-        let mut columns = [[[SVector::zeros(); STATES]; Parameter::COUNT]; N];
+        let mut columns = [[[[0.0; N]; STATES]; Parameter::COUNT]; N];
         let gravity = Vector3::from(self.gravity).norm();
         let mut reach = [0.0; N];
         let mut length = 0.0;
@@ -169,7 +168,7 @@ impl<const N: usize> SerialChain<N> {
                 for parameter in Parameter::ALL {
                     let size = sizes[parameter.degree()];
                     let column = block.column(parameter.index());
-                    columns[i][parameter.index()][state] = SVector::from_fn(|j, _| {
+                    columns[i][parameter.index()][state] = core::array::from_fn(|j| {
                         let unit = match self.joints[j].kind {
                             JointKind::Revolute => 1.0,
                             JointKind::Prismatic => reach[j],
@@ -230,7 +229,8 @@ fn wrenches(
 }
 
 fn dot<const N: usize>(a: &Column<N>, b: &Column<N>) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(b)).sum()
+    let pairs = a.as_flattened().iter().zip(b.as_flattened());
+    pairs.map(|(a, b)| a * b).sum()
 }
 
 /// The terms of a sequence that fills [−1, 1] evenly (Weyl: the squares times an irrational number, modulo 1).

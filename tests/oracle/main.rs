@@ -5,6 +5,7 @@
 
 mod dynamics;
 mod manipulability;
+mod regressor;
 
 use nalgebra::{SMatrix, SVector};
 use serde::Deserialize;
@@ -132,6 +133,11 @@ macro_rules! both {
         #[test]
         fn manipulability() {
             crate::manipulability::agrees($backend, $name, &$arm);
+        }
+
+        #[test]
+        fn regressor() {
+            crate::regressor::agrees($backend, $name, &$arm);
         }
     };
 }

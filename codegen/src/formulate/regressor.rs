@@ -2,11 +2,12 @@
 //! that the unit parameters of link i need, in the frame of link i.
 //!
 //! There the wrenches are entries of `Λ = [ω̇]× + [ω]×[ω]×` and of the origin's acceleration, mostly zeros, and the link's own joint is a unit
-//! vector. Carrying ten wrenches from link to link, as the recursion of inverse dynamics would, takes more than twice the operations of
-//! carrying the joints' twists outwards: two vectors for a joint instead of fourteen for a link.
+//! vector. Carrying ten wrenches from link to link, as the recursion of inverse dynamics would, takes 1.4 (ssrms) to 2 times (oblique_6)
+//! the operations of carrying the joints' twists outwards: two vectors for a joint instead of fourteen for a link.
 //!
 //! What a joint's turning cannot change of its link's parameters acts on the joints before like parameters of the link before
-//! ([`super::body`]); where the axes are parallel or square, those columns follow from the ones of the link before in fewer operations.
+//! ([`super::body`]); where the axes are parallel or square, those columns follow from the ones of the link before in fewer operations
+//! (1,322 without it and 1,177 with it on ssrms; elsewhere more).
 
 use ulna::{JointKind, Parameter};
 
@@ -136,14 +137,19 @@ impl<'g> Step<'g> {
         v.turn_x(self.alpha.inverse()).turn_z(self.turn.inverse())
     }
 
-    /// A twist at the origin before, at the one after.
-    fn twist(&self, twist: Twist<'g>) -> Twist<'g> {
-        let linear = twist.linear + twist.angular.cross(self.offset);
-        Twist { linear, ..twist }.map(|v| self.vector(v))
+    /// A twist at the origin before, at the one after: moved along x, turned about it, moved along z, turned about it.
+    /// Moves along an axis take fewer operations than one move along both.
+    fn twist(&self, Twist { linear, angular }: Twist<'g>) -> Twist<'g> {
+        let (zero, back) = (self.a.of(0.0), self.alpha.inverse());
+        let linear = (linear + angular.cross(Vec3([self.a, zero, zero]))).turn_x(back);
+        let angular = angular.turn_x(back);
+        let linear = linear + angular.cross(Vec3([zero, zero, self.d]));
+        Twist { linear, angular }.map(|v| v.turn_z(self.turn.inverse()))
     }
 
     /// Entries of a row that follow from those of the link before. With u the joint's axis and p = a x + d u the offset, both as the link
     /// before sees them, a mass is there a mass at p; a first moment along u is one at p; and Ixx + Iyy an inertia 1 − uuᵀ.
+    /// A mass at a p that is along neither costs more than the power of one force.
     fn inherit(&self, row: &mut Row<'g>, before: &Row<'g>) {
         if !self.inherits {
             return;
@@ -159,9 +165,11 @@ impl<'g> Step<'g> {
         let moved = d * round;
         row[Parameter::Iyy.index()] = round - row[Parameter::Ixx.index()];
         row[Parameter::Mz.index()] = along + moved + moved;
-        row[Parameter::Mass.index()] = at(Parameter::Mass)
-            + a * (at(Parameter::Mx) + a * (at(Parameter::Iyy) + at(Parameter::Izz)))
-            + d * (along + moved);
+        if a.is_zero() || d.is_zero() {
+            row[Parameter::Mass.index()] = at(Parameter::Mass)
+                + a * (at(Parameter::Mx) + a * (at(Parameter::Iyy) + at(Parameter::Izz)))
+                + d * (along + moved);
+        }
     }
 }
 
