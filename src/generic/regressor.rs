@@ -15,6 +15,19 @@ const STATES: usize = 12;
 /// What is left of a column that depends on others, relative to what its terms can amount to, at most.
 const DEPENDENT: f64 = 1e-9;
 
+/// What is left of a column that depends on others where none of those is nearly dependent.
+const CLEARLY_DEPENDENT: f64 = 1e-12;
+/// What is left, at least, of one that is not even nearly dependent.
+const CLEARLY_INDEPENDENT: f64 = 1e-5;
+
+/// The columns of Y that are those of base parameters.
+pub(crate) struct BaseColumns<const N: usize> {
+    /// Of each link, in the order of the regressor's columns.
+    pub(crate) kept: [[bool; Parameter::COUNT]; N],
+    /// Whether doubles are enough to tell.
+    pub(crate) are_clear: bool,
+}
+
 /// A column of Y at all states, one below the other.
 type Column<const N: usize> = [[f64; N]; STATES];
 
@@ -50,7 +63,7 @@ impl<const N: usize> SerialChain<N> {
         qdd: &SVector<f64, N>,
     ) -> [SMatrix<f64, N, 10>; N] {
         let mut regressor = self.regressor_at(q, qd, qdd);
-        for (block, kept) in regressor.iter_mut().zip(self.base_columns()) {
+        for (block, kept) in regressor.iter_mut().zip(self.base_columns().kept) {
             for (column, _) in kept.iter().enumerate().filter(|(_, kept)| !**kept) {
                 block.column_mut(column).fill(0.0);
             }
@@ -112,10 +125,11 @@ impl<const N: usize> SerialChain<N> {
     /// [`Parameter::BASE_ORDER`], by orthogonalising Y stacked over states, column after column (Gautier 1991).
     ///
     /// Decided in doubles: of an arm that is nearly but not quite special (axes a millionth of a degree from parallel),
-    /// it may keep fewer columns than the arm has base parameters.
-    fn base_columns(&self) -> [[bool; Parameter::COUNT]; N] {
+    /// others may be kept than those that the exact numbers tell. It is clear which where no column is left as small as that.
+    pub(crate) fn base_columns(&self) -> BaseColumns<N> {
         let mut columns = self.stacked();
         let mut kept = [[false; Parameter::COUNT]; N];
+        let mut are_clear = true;
         for i in 0..N {
             for (place, parameter) in Parameter::BASE_ORDER.into_iter().enumerate() {
                 let mut column = columns[i][parameter.index()];
@@ -135,13 +149,28 @@ impl<const N: usize> SerialChain<N> {
                     }
                 }
                 let length = Real::sqrt(dot(&column, &column));
+                STAT.with(|s| s.borrow_mut().push(length));
+                are_clear &= length < CLEARLY_DEPENDENT || length > CLEARLY_INDEPENDENT;
                 if length > DEPENDENT {
                     kept[i][parameter.index()] = true;
                     columns[i][parameter.index()] = column.map(|row| row.map(|x| x / length));
                 }
             }
         }
-        kept
+        STAT.with(|s| {
+            let mut s = s.borrow_mut();
+            std::eprintln!(
+                "STAT {:e} {:e}",
+                s.iter()
+                    .filter(|x| **x < 1e-9)
+                    .fold(0.0f64, |a, b| a.max(*b)),
+                s.iter()
+                    .filter(|x| **x >= 1e-9)
+                    .fold(9.0f64, |a, b| a.min(*b))
+            );
+            s.clear();
+        });
+        BaseColumns { kept, are_clear }
     }
 
     /// Y's columns at all states, one below the other, relative to what their terms can amount to.
@@ -238,3 +267,5 @@ fn spread(index: usize) -> f64 {
     let index = (index + 1) as f64;
     2.0 * ((index * index * core::f64::consts::SQRT_2) % 1.0) - 1.0
 }
+
+std::thread_local! { static STAT: core::cell::RefCell<std::vec::Vec<f64>> = const { core::cell::RefCell::new(std::vec::Vec::new()) }; }

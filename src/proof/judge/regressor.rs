@@ -25,34 +25,30 @@ impl<const N: usize> Judge<'_, N> {
         self.columns(&found, &expected, |_, _| true)
     }
 
-    /// A column that is kept is Y's.
+    /// A column that is kept is Y's, and the same columns are kept.
     ///
-    /// Which are kept follows from the arm alone. Where both sides do not keep the same ones, the arm is special but for so little
-    /// that rounding decides which columns depend on each other; nothing is left to compare but how many they are, nearly.
+    /// Which are kept follows from the arm alone. Of an arm that is special but for so little that rounding decides which columns
+    /// depend on each other, only those are compared that are kept.
     pub(in crate::proof) fn base_regressor(
         &self,
         found: Regressor<N>,
         expected: impl FnOnce() -> Regressor<N>,
     ) -> Verdict {
-        let kept = |regressor: &Regressor<N>, i: usize, column: usize| {
-            regressor[i].column(column).iter().any(|x| *x != 0.0)
-        };
         let expected = expected();
         let (q, qd, qdd) = (&self.state.q, &self.state.qd, &self.state.qdd);
         let all = self.reference.regressor(q, qd, qdd);
+        let kept = |regressor: &Regressor<N>, i: usize, column: usize| {
+            regressor[i].column(column).iter().any(|x| *x != 0.0)
+        };
         let (error, allowed) = self.columns(&found, &all, |i, column| kept(&found, i, column));
-        let count = |regressor: &Regressor<N>| {
-            let places = (0..N).flat_map(|i| (0..Parameter::COUNT).map(move |column| (i, column)));
-            places
-                .filter(|(i, column)| kept(regressor, *i, *column))
-                .count()
-        };
-        let missing = if count(&found).abs_diff(count(&expected)) > NEARLY {
-            f64::INFINITY
-        } else {
+        let mut places = (0..N).flat_map(|i| (0..Parameter::COUNT).map(move |column| (i, column)));
+        let same = places.all(|(i, column)| kept(&found, i, column) == kept(&expected, i, column));
+        let others = if same || !self.chain.base_columns().are_clear {
             0.0
+        } else {
+            f64::INFINITY
         };
-        (worse(error, missing), allowed)
+        (worse(error, others), allowed)
     }
 
     /// The largest error of an entry among some columns.
@@ -109,6 +105,3 @@ impl<const N: usize> Judge<'_, N> {
         speed * speed + sum(&self.state.qdd)
     }
 }
-
-/// By how many columns two bases of one arm may differ where rounding decides.
-const NEARLY: usize = 0;

@@ -57,7 +57,7 @@ pub(crate) fn regressor_has_the_mass_matrix_in_it<const N: usize>(
             let added = core::array::from_fn(|i| moved[i] - still[i]);
             let (column, _) = torque(&added, chain);
             let expected = mass_matrix.column(j).into_owned();
-            near(&column, &expected, scale, 1e-13, "M");
+            near(&column, &expected, scale, 1e-12, "M");
         }
     });
 }
