@@ -55,7 +55,7 @@ impl<const N: usize> SerialChain<N> {
         })
     }
 
-    /// The columns of the base parameters as they are in Y, all others 0.
+    /// The columns of the base parameters as they are in Y, all others 0. Which they are is found anew at each call.
     pub(super) fn base_regressor_at(
         &self,
         q: &SVector<f64, N>,
@@ -149,7 +149,6 @@ impl<const N: usize> SerialChain<N> {
                     }
                 }
                 let length = Real::sqrt(dot(&column, &column));
-                STAT.with(|s| s.borrow_mut().push(length));
                 are_clear &= length < CLEARLY_DEPENDENT || length > CLEARLY_INDEPENDENT;
                 if length > DEPENDENT {
                     kept[i][parameter.index()] = true;
@@ -157,19 +156,6 @@ impl<const N: usize> SerialChain<N> {
                 }
             }
         }
-        STAT.with(|s| {
-            let mut s = s.borrow_mut();
-            std::eprintln!(
-                "STAT {:e} {:e}",
-                s.iter()
-                    .filter(|x| **x < 1e-9)
-                    .fold(0.0f64, |a, b| a.max(*b)),
-                s.iter()
-                    .filter(|x| **x >= 1e-9)
-                    .fold(9.0f64, |a, b| a.min(*b))
-            );
-            s.clear();
-        });
         BaseColumns { kept, are_clear }
     }
 
@@ -267,5 +253,3 @@ fn spread(index: usize) -> f64 {
     let index = (index + 1) as f64;
     2.0 * ((index * index * core::f64::consts::SQRT_2) % 1.0) - 1.0
 }
-
-std::thread_local! { static STAT: core::cell::RefCell<std::vec::Vec<f64>> = const { core::cell::RefCell::new(std::vec::Vec::new()) }; }
