@@ -5,6 +5,7 @@
 //! Craig, *Introduction to Robotics* (3rd ed.): frames 3.4, inverse dynamics 6.5;
 //! and the paper on joint impact torque, Eq. 15 and 22–27, for w_D and its gradient.
 
+mod base_columns;
 mod finite_difference;
 mod kinematics;
 pub mod literal;
