@@ -1,5 +1,7 @@
 //! How large the error of each kind of quantity is, and how large it may be: a rule for each, named in the table of methods.
 
+mod regressor;
+
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 
 use super::scale::Scale;

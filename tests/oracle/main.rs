@@ -7,6 +7,7 @@ mod dynamics;
 mod lock;
 mod manipulability;
 mod payload;
+mod regressor;
 
 use nalgebra::{SMatrix, SVector};
 use serde::Deserialize;
@@ -140,6 +141,11 @@ macro_rules! both {
         #[test]
         fn manipulability() {
             crate::manipulability::agrees($backend, $name, &$arm);
+        }
+
+        #[test]
+        fn regressor() {
+            crate::regressor::agrees($backend, $name, &$arm);
         }
     };
 }

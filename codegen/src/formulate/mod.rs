@@ -15,10 +15,11 @@ pub(crate) mod lock_impacts;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
+pub(crate) mod regressor;
 pub(crate) mod task;
 pub(crate) mod vector;
 
-use ulna::{Method, TaskRow};
+use ulna::{Method, Parameter, TaskRow};
 
 use self::chain::Chain;
 use self::friction::{friction, with_friction};
@@ -29,6 +30,7 @@ use self::kinematics::{jacobian_derivatives, jacobian_in_world, pose};
 use self::lock_impacts::lock_impacts;
 use self::mass_matrix::mass_matrix;
 use self::mass_matrix_derivatives::mass_matrix_derivatives;
+use self::regressor::{Columns, regressor_columns};
 use self::task::{manipulability_alone, manipulability_and_gradient};
 use crate::graph::{Expr, Input};
 use crate::schedule::{Output, Size};
@@ -52,6 +54,8 @@ pub struct Choices {
     pub articulated: bool,
     /// Whether the task is singular in every configuration, so that w_D is 0 there.
     pub singular: bool,
+    /// Which columns of the regressor are those of base parameters.
+    pub base: Columns,
 }
 
 /// As the table says.
@@ -66,6 +70,7 @@ impl Default for Choices {
             passes: 2,
             articulated: false,
             singular: false,
+            base: Columns::default(),
         }
     }
 }
@@ -141,6 +146,8 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
             outputs.extend(manipulability_and_gradient(chain, choices));
             outputs
         }
+        Method::Regressor => vec![regressor(chain, Columns::default())],
+        Method::BaseRegressor => vec![regressor(chain, choices.base)],
     }
 }
 
@@ -248,4 +255,10 @@ fn forward_dynamics<'g>(chain: &Chain<'g>, load: Wrench<'g>) -> Outputs<'g> {
         &[chain.joint_count()],
         elements,
     )]
+}
+
+fn regressor<'g>(chain: &Chain<'g>, columns: Columns) -> Output<Expr<'g>> {
+    let n = chain.joint_count();
+    let elements = regressor_columns(chain, columns).concat().concat();
+    Output::new("regressor", &[n, Parameter::COUNT, n], elements)
 }

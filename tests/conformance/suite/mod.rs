@@ -13,6 +13,7 @@ pub(crate) mod kinematics;
 pub(crate) mod lock;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
+pub(crate) mod regressor;
 pub(crate) mod totality;
 
 use ulna::SerialChain;
@@ -48,6 +49,11 @@ macro_rules! conformance {
             manipulability::manipulability_gradient_agrees_with_differences
             manipulability::manipulability_agrees_with_dual_numbers
             manipulability::manipulability_ignores_a_turn_of_the_whole_task
+            regressor::regressor_times_parameters_is_the_torque
+            regressor::regressor_has_the_mass_matrix_in_it
+            regressor::regressor_is_zero_below_its_link
+            regressor::base_columns_are_those_of_the_regressor_and_are_independent
+            regressor::base_columns_are_enough_for_every_torque
             totality::single_and_combined_methods_agree
             totality::any_finite_configuration_gives_numbers
             totality::a_full_turn_changes_nothing
