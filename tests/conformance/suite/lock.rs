@@ -18,7 +18,7 @@ pub(crate) fn lock_impacts_are_those_of_the_papers_recursion<const N: usize>(
         for k in 0..N {
             let locked = LockedJoints::new(&[k]).expect("the arm has this joint");
             let expected = impact_torque(chain, &state, locked, &Vector6::zeros()).torque;
-            near(&impacts.column(k), &expected, 0.0, 1e-12, "lock");
+            near(impacts.column(k), &expected, 0.0, 1e-12, "lock");
         }
     });
 }
@@ -42,7 +42,7 @@ pub(crate) fn lock_impacts_are_differences_of_inverse_dynamics<const N: usize>(
                 held[k] = 0.0;
                 unaccelerated[k] = 0.0;
                 let step = torque - arm.inverse_dynamics(&q, &held, &unaccelerated);
-                near(&impacts.column(k), &step, torque.amax(), 1e-12, "lock");
+                near(impacts.column(k), &step, torque.amax(), 1e-12, "lock");
             }
         }
     });
