@@ -17,7 +17,7 @@ import tomllib
 import numpy as np
 import pinocchio as pin
 
-from golden_pinocchio import ARMS, HERE, build
+from golden_pinocchio import friction_torque, ARMS, HERE, build
 
 FULL = 20
 PINOCCHIO = ["m", "mx", "my", "mz", "xx", "xy", "yy", "xz", "yz", "zz"]
@@ -34,7 +34,8 @@ def blocks(model, line):
 
 def main():
     for path in sorted(ARMS.glob("*.toml")):
-        model, _ = build(tomllib.loads(path.read_text()))
+        table = tomllib.loads(path.read_text())
+        model, _ = build(table)
         random = np.random.default_rng(1991)
         states = [json.loads(line) for line in (HERE / "data" / f"{path.stem}.jsonl").read_text().splitlines()]
         with open(HERE / "data" / f"{path.stem}.regressor.jsonl", "w") as out:
@@ -42,7 +43,8 @@ def main():
                 weights = random.uniform(-1.0, 1.0, 10)
                 links = blocks(model, state)
                 torque = sum(block @ parameters(model, link) for link, block in enumerate(links))
-                expected = np.array(state["inverse_dynamics"])
+                drives = model.armature * state["qdd"] + friction_torque(table, state["qd"])
+                expected = np.array(state["inverse_dynamics"]) - drives
                 assert np.abs(torque - expected).max() <= 1e-11 * max(1.0, np.abs(expected).max())
                 values = {"weights": weights.tolist(), "weighted": [(block @ weights).tolist() for block in links]}
                 if number % FULL == 0:

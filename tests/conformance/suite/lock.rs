@@ -41,7 +41,9 @@ pub(crate) fn lock_impacts_are_differences_of_inverse_dynamics<const N: usize>(
                 let (mut held, mut unaccelerated) = (qd, qdd);
                 held[k] = 0.0;
                 unaccelerated[k] = 0.0;
-                let step = torque - arm.inverse_dynamics(&q, &held, &unaccelerated);
+                let mut step = torque - arm.inverse_dynamics(&q, &held, &unaccelerated);
+                // A brake's own load is no friction of the joint: the lock's mechanics are without.
+                step[k] -= arm.friction_torque(&qd)[k];
                 near(impacts.column(k), &step, torque.amax(), 1e-12, "lock");
             }
         }

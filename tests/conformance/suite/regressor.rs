@@ -5,6 +5,7 @@ use ulna::proof::{State, states};
 use ulna::{Arm, SerialChain};
 
 use super::differences::unit;
+use super::drives::torque_of_drives;
 use super::{at_states, near};
 
 type Regressor<const N: usize> = [SMatrix<f64, N, 10>; N];
@@ -31,7 +32,12 @@ pub(crate) fn regressor_times_parameters_is_the_torque<const N: usize>(
     at_states(chain, |State { q, qd, qdd, .. }| {
         let rest = SVector::zeros();
         let torques = [
-            (qd, qdd, arm.inverse_dynamics(&q, &qd, &qdd), "tau"),
+            (
+                qd,
+                qdd,
+                arm.inverse_dynamics(&q, &qd, &qdd) - torque_of_drives(chain, &qd, &qdd),
+                "tau",
+            ),
             (qd, rest, arm.bias_force(&q, &qd), "bias force"),
             (rest, rest, arm.gravity_torque(&q), "gravity torque"),
         ];
@@ -56,7 +62,8 @@ pub(crate) fn regressor_has_the_mass_matrix_in_it<const N: usize>(
             let (_, scale) = torque(&moved, chain);
             let added = core::array::from_fn(|i| moved[i] - still[i]);
             let (column, _) = torque(&added, chain);
-            let expected = mass_matrix.column(j).into_owned();
+            let rotor = torque_of_drives(chain, &rest, &unit(j, 1.0));
+            let expected = mass_matrix.column(j) - rotor;
             near(&column, &expected, scale, 1e-12, "M");
         }
     });
@@ -133,12 +140,15 @@ pub(crate) fn base_columns_are_enough_for_every_torque<const N: usize>(
     arm: &impl Arm<N>,
     chain: &SerialChain<N>,
 ) {
+    let torque_of_links = |q: &SVector<f64, N>, qd: &SVector<f64, N>, qdd: &SVector<f64, N>| {
+        arm.inverse_dynamics(q, qd, qdd) - torque_of_drives(chain, qd, qdd)
+    };
     let base = stacked(chain, |state| {
         arm.base_regressor(&state.q, &state.qd, &state.qdd)
     });
     let torques = states(chain)
         .take(STACKED)
-        .map(|State { q, qd, qdd, .. }| arm.inverse_dynamics(&q, &qd, &qdd));
+        .map(|State { q, qd, qdd, .. }| torque_of_links(&q, &qd, &qdd));
     let torques: Vec<f64> = torques
         .flat_map(|tau| tau.iter().copied().collect::<Vec<_>>())
         .collect();
@@ -150,7 +160,7 @@ pub(crate) fn base_columns_are_enough_for_every_torque<const N: usize>(
         let blocks = arm.base_regressor(&q, &qd, &qdd);
         let fitted = (0..N).map(|link| blocks[link] * parameters.fixed_rows::<10>(link * 10));
         let fitted: SVector<f64, N> = fitted.sum();
-        let expected = arm.inverse_dynamics(&q, &qd, &qdd);
+        let expected = torque_of_links(&q, &qd, &qdd);
         near(&fitted, &expected, 0.0, 1e-10, "tau");
     }
 }
