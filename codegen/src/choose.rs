@@ -47,9 +47,24 @@ pub(super) fn choose(model: &Model, states: &TestStates) -> Choices {
     });
     let task = cheapest_that_is_exact(model, GRADIENT, ways, states).unwrap_or(none);
     Choices {
+        meeting: fewest_operations_at(model),
         world: world.unwrap_or(none).world,
         ..task
     }
+}
+
+/// The joint at which twists and wrenches should meet in ∂τ: one of the outer half.
+fn fewest_operations_at(model: &Model) -> usize {
+    let joints = model.joints().len();
+    let operations = |meeting: &usize| {
+        let choices = Choices {
+            meeting: *meeting,
+            ..Choices::default()
+        };
+        let program = compile_method(model, Method::InverseDynamicsDerivatives, choices);
+        program.steps.len()
+    };
+    (joints / 2..joints).min_by_key(operations).unwrap_or(0)
 }
 
 /// The order of the task's rows in which H's are longest first.

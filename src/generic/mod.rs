@@ -5,6 +5,7 @@
 //! Craig, *Introduction to Robotics* (3rd ed.): frames 3.4, inverse dynamics 6.5;
 //! and the paper on joint impact torque, Eq. 15 and 22–27, for w_D and its gradient.
 
+mod dynamics_derivatives;
 mod finite_difference;
 mod kinematics;
 pub mod literal;
@@ -93,8 +94,7 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         qd: &SVector<f64, N>,
         qdd: &SVector<f64, N>,
     ) -> SVector<f64, N> {
-        let loads = self.joint_loads(q, qd, qdd);
-        SVector::from_fn(|i, _| loads[i].along_axis(self.joints[i].kind))
+        self.torque_at(&self.inputs(q), qd, qdd)
     }
 
     fn bias_force(&self, q: &SVector<f64, N>, qd: &SVector<f64, N>) -> SVector<f64, N> {
@@ -112,5 +112,23 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         tau: &SVector<f64, N>,
     ) -> SVector<f64, N> {
         mass_matrix::factor(self.mass_matrix(q)).solve(&(tau - self.bias_force(q, qd)))
+    }
+
+    fn inverse_dynamics_derivatives(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> (SMatrix<f64, N, N>, SMatrix<f64, N, N>) {
+        self.torque_derivatives(q, qd, qdd)
+    }
+
+    fn forward_dynamics_derivatives(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        tau: &SVector<f64, N>,
+    ) -> (SMatrix<f64, N, N>, SMatrix<f64, N, N>, SMatrix<f64, N, N>) {
+        self.acceleration_derivatives(q, qd, tau)
     }
 }

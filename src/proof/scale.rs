@@ -75,10 +75,44 @@ impl<const N: usize> Scale<N> {
 
     /// What the terms of each joint's torque may amount to, N·m (N), in the motion `(q̇, q̈)`.
     pub(super) fn torque(&self, qd: &SVector<f64, N>, qdd: &SVector<f64, N>) -> SVector<f64, N> {
+        self.torque_with(&self.inertia, qd, qdd)
+    }
+
+    /// Likewise of its derivative by q_j, times that joint's [unit](Self::unit).
+    pub(super) fn torque_by_position(
+        &self,
+        chain: &SerialChain<N>,
+        j: usize,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        self.torque_with(self.inertia_beside(chain, j), qd, qdd)
+    }
+
+    /// Likewise of its derivative by any q̇_j.
+    pub(super) fn torque_by_velocity(&self, qd: &SVector<f64, N>) -> SVector<f64, N> {
         let speed: f64 = qd.iter().map(|x| x.abs()).sum();
-        let accelerated: f64 = self.inertia.iter().zip(qdd).map(|(m, x)| m * x.abs()).sum();
-        let turned = self.inertia.amax() * speed * speed;
-        self.inertia * (accelerated + turned + self.gravity)
+        self.inertia * (2.0 * self.inertia.amax() * speed)
+    }
+
+    /// The sizes of M's entries where a derivative by q_j is taken.
+    pub(super) fn inertia_beside(&self, chain: &SerialChain<N>, j: usize) -> &SVector<f64, N> {
+        match chain.joints[j].kind {
+            JointKind::Revolute => &self.inertia,
+            JointKind::Prismatic => &self.inertia_ahead,
+        }
+    }
+
+    fn torque_with(
+        &self,
+        inertia: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        let speed: f64 = qd.iter().map(|x| x.abs()).sum();
+        let accelerated: f64 = inertia.iter().zip(qdd).map(|(m, x)| m * x.abs()).sum();
+        let turned = inertia.amax() * speed * speed;
+        inertia * (accelerated + turned + self.gravity)
     }
 
     /// The unit of ∂/∂q_i: 1 for an angle, the chain's length for an offset.

@@ -13,11 +13,19 @@ use crate::graph::Expr;
 
 /// Motion of a link.
 #[derive(Clone, Copy)]
-struct Motion<'g> {
-    velocity: Vec3<'g>,
-    angular_acceleration: Vec3<'g>,
+pub(super) struct Motion<'g> {
+    /// Angular velocity.
+    pub(super) velocity: Vec3<'g>,
+    pub(super) angular_acceleration: Vec3<'g>,
     /// Of the joint's origin, gravity taken off.
-    acceleration: Vec3<'g>,
+    pub(super) acceleration: Vec3<'g>,
+}
+
+/// What the link before exerts on a link at its joint, the moment about the joint's origin.
+#[derive(Clone, Copy)]
+pub(super) struct Wrench<'g> {
+    pub(super) force: Vec3<'g>,
+    pub(super) moment: Vec3<'g>,
 }
 
 impl<'g> Motion<'g> {
@@ -30,7 +38,7 @@ impl<'g> Motion<'g> {
     }
 
     /// Λ, by rows.
-    fn lambda(&self) -> [Vec3<'g>; 3] {
+    pub(super) fn lambda(&self) -> [Vec3<'g>; 3] {
         let ([x, y, z], [ax, ay, az]) = (self.velocity.0, self.angular_acceleration.0);
         let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
         [
@@ -51,10 +59,21 @@ pub(crate) fn inverse_dynamics<'g>(
     qd: &[Expr<'g>],
     qdd: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
-    let motions = outward(chain, qd, qdd);
+    let wrenches = inward(chain, &outward(chain, qd, qdd));
+    let joints = chain.joints.iter().zip(wrenches);
+    joints
+        .map(|(joint, wrench)| match joint.kind {
+            JointKind::Revolute => wrench.moment.0[2],
+            JointKind::Prismatic => wrench.force.0[2],
+        })
+        .collect()
+}
+
+/// What the motions of all links beyond a joint take there, base first, each in its group's axes.
+pub(super) fn inward<'g>(chain: &Chain<'g>, motions: &[Motion<'g>]) -> Vec<Wrench<'g>> {
     let zero = chain.zero();
     let (mut force, mut moment) = (zero, zero);
-    let mut torques = vec![chain.graph.constant(0.0); chain.joint_count()];
+    let mut wrenches = Vec::new();
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
@@ -62,10 +81,7 @@ pub(crate) fn inverse_dynamics<'g>(
             let (own_force, own_moment) = wrench(&body, &motions[i]);
             force = force + own_force;
             moment = moment + own_moment;
-            torques[i] = match joint.kind {
-                JointKind::Revolute => moment.0[2],
-                JointKind::Prismatic => force.0[2],
-            };
+            wrenches.push(Wrench { force, moment });
             if i == group.joints.start {
                 force = group.to_parent(force);
                 moment = group.to_parent(moment);
@@ -73,11 +89,12 @@ pub(crate) fn inverse_dynamics<'g>(
             moment = moment + joint.offset.cross(force);
         }
     }
-    torques
+    wrenches.reverse();
+    wrenches
 }
 
 /// The links' motions, base first, each in its group's axes.
-fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Motion<'g>> {
+pub(super) fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Motion<'g>> {
     let mut motion = Motion {
         velocity: chain.zero(),
         angular_acceleration: chain.zero(),

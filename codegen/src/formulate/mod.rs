@@ -6,19 +6,25 @@
 pub(crate) mod articulated;
 pub(crate) mod body;
 pub(crate) mod chain;
+mod coriolis;
 pub(crate) mod factorization;
+pub(crate) mod forward_dynamics_derivatives;
 pub(crate) mod inverse_dynamics;
+pub(crate) mod inverse_dynamics_derivatives;
 pub(crate) mod kinematics;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
+mod matrix;
 pub(crate) mod task;
 pub(crate) mod vector;
 
 use ulna::Method;
 
 use self::chain::Chain;
+use self::factorization::Factors;
 use self::inverse_dynamics::inverse_dynamics;
+use self::inverse_dynamics_derivatives::inverse_dynamics_derivatives;
 use self::kinematics::{jacobian_derivatives, jacobian_in_world, pose};
 use self::mass_matrix::mass_matrix;
 use self::mass_matrix_derivatives::mass_matrix_derivatives;
@@ -45,6 +51,8 @@ pub struct Choices {
     pub articulated: bool,
     /// Whether the task is singular in every configuration, so that w_D is 0 there.
     pub singular: bool,
+    /// The joint at which twists and wrenches meet in ∂τ/∂q and ∂τ/∂q̇.
+    pub meeting: usize,
 }
 
 /// As the table says.
@@ -59,6 +67,7 @@ impl Default for Choices {
             passes: 2,
             articulated: false,
             singular: false,
+            meeting: 0,
         }
     }
 }
@@ -81,6 +90,8 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
         Method::BiasForce => vec![torque(chain, &chain.inputs(Input::Qd), &zeros(chain))],
         Method::GravityTorque => vec![torque(chain, &zeros(chain), &zeros(chain))],
         Method::ForwardDynamics => forward_dynamics(chain),
+        Method::InverseDynamicsDerivatives => torque_derivatives(chain, choices),
+        Method::ForwardDynamicsDerivatives => forward_dynamics_derivatives::outputs(chain, choices),
         Method::MassMatrixAndDerivatives => vec![mass(chain), derivatives_of_mass(chain)],
         Method::JacobianAndGradient => {
             let mut outputs = vec![jacobian(chain, choices)];
@@ -130,12 +141,17 @@ fn derivatives_of_mass<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
 
 fn inverse_mass<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
     let n = chain.joint_count();
-    let factors = if choices.articulated {
+    let elements = factors(chain, choices).inverse().concat();
+    Output::new("inverse", &[n, n], elements)
+}
+
+/// M's factors, from M or, where that would lose a light link, from articulated bodies.
+fn factors<'g>(chain: &Chain<'g>, choices: Choices) -> Factors<'g> {
+    if choices.articulated {
         articulated::factors(chain)
     } else {
         factorization::factor(&mass_matrix(chain))
-    };
-    Output::new("inverse", &[n, n], factors.inverse().concat())
+    }
 }
 
 fn torque<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Output<Expr<'g>> {
@@ -143,14 +159,36 @@ fn torque<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Output<Ex
     Output::new("torque", &[chain.joint_count()], elements)
 }
 
+fn torque_derivatives<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
+    let (qd, qdd) = (chain.inputs(Input::Qd), chain.inputs(Input::Qdd));
+    let [by_position, by_velocity] =
+        inverse_dynamics_derivatives(chain, &qd, &qdd, choices.meeting);
+    vec![
+        by_columns("by_position", &by_position),
+        by_columns("by_velocity", &by_velocity),
+    ]
+}
+
+/// A square matrix, given by rows.
+fn by_columns<'g>(name: &'static str, rows: &[Vec<Expr<'g>>]) -> Output<Expr<'g>> {
+    let n = rows.len();
+    let entries = (0..n).flat_map(|j| rows.iter().map(move |row| row[j]));
+    Output::new(name, &[n, n], entries.collect())
+}
+
 fn forward_dynamics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
-    let bias = inverse_dynamics(chain, &chain.inputs(Input::Qd), &zeros(chain));
-    let driving = chain.inputs(Input::Tau).into_iter().zip(bias);
-    let driving: Vec<Expr<'g>> = driving.map(|(tau, bias)| tau - bias).collect();
+    let driving = driving(chain);
     let elements = factorization::factor(&mass_matrix(chain)).solve(&driving);
     vec![Output::new(
         "acceleration",
         &[chain.joint_count()],
         elements,
     )]
+}
+
+/// What of the torques accelerates: τ − c − g.
+fn driving<'g>(chain: &Chain<'g>) -> Vec<Expr<'g>> {
+    let bias = inverse_dynamics(chain, &chain.inputs(Input::Qd), &zeros(chain));
+    let pairs = chain.inputs(Input::Tau).into_iter().zip(bias);
+    pairs.map(|(tau, bias)| tau - bias).collect()
 }
