@@ -8,6 +8,7 @@ mod differences;
 mod exponentials;
 
 pub(crate) mod dynamics;
+pub(crate) mod dynamics_derivatives;
 pub(crate) mod kinematics;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
@@ -34,6 +35,12 @@ macro_rules! conformance {
             dynamics::velocity_products_follow_from_the_mass_matrix
             dynamics::energy_is_conserved
             dynamics::forward_dynamics_undo_inverse_dynamics
+            dynamics_derivatives::torque_derivatives_agree_with_differences
+            dynamics_derivatives::torque_derivatives_agree_with_exponentials
+            dynamics_derivatives::torque_derivatives_at_rest_are_those_of_the_mass_matrix_and_of_gravity
+            dynamics_derivatives::torque_derivatives_by_rates_are_twice_the_coriolis_matrix
+            dynamics_derivatives::acceleration_derivatives_agree_with_differences
+            dynamics_derivatives::acceleration_derivatives_undo_torque_derivatives
             manipulability::manipulability_is_that_of_its_own_jacobian_and_mass_matrix
             manipulability::manipulability_gradient_agrees_with_differences
             manipulability::manipulability_agrees_with_dual_numbers
