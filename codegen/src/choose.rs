@@ -35,7 +35,9 @@ pub(super) fn choose(model: &Model, states: &TestStates, methods: MethodSet) -> 
     };
     let world = is_needed(Chosen::World).then(|| of_jacobian(model, states, none));
     let task = is_needed(Chosen::Task).then(|| of_task(model, states, none));
+    let meeting = is_needed(Chosen::Meeting).then(|| fewest_operations_at(model));
     Choices {
+        meeting: meeting.unwrap_or(none.meeting),
         world: world.unwrap_or(none).world,
         ..task.unwrap_or(none)
     }
@@ -71,6 +73,20 @@ fn of_task(model: &Model, states: &TestStates, none: Choices) -> Choices {
         all
     });
     cheapest_that_is_exact(model, GRADIENT, ways, states).unwrap_or(none)
+}
+
+/// The joint at which twists and wrenches should meet in ∂τ: one of the outer half.
+fn fewest_operations_at(model: &Model) -> usize {
+    let joints = model.joints().len();
+    let operations = |meeting: &usize| {
+        let choices = Choices {
+            meeting: *meeting,
+            ..Choices::default()
+        };
+        let program = compile_method(model, Method::InverseDynamicsDerivatives, choices);
+        program.steps.len()
+    };
+    (joints / 2..joints).min_by_key(operations).unwrap_or(0)
 }
 
 /// The order of the task's rows in which H's are longest first.

@@ -160,6 +160,23 @@ macro_rules! methods {
             { batch lock_impacts_batch from 2 }
             { error lock_impacts }
 
+            /// ∂τ/∂q and ∂τ/∂q̇ of the inverse dynamics, N×N each, N·m/rad and N·m·s/rad: entry (i, j) is ∂τ_i/∂q_j. ∂τ/∂q̈ is M.
+            InverseDynamicsDerivatives = inverse_dynamics_derivatives(q, qd, qdd)
+                -> ($crate::nalgebra::SMatrix<f64, $n, $n>, $crate::nalgebra::SMatrix<f64, $n, $n>)
+            { kernel "∂τ/∂q and ∂τ/∂q̇, N×N, for the accelerations `qdd`."
+              inverse_dynamics_derivatives_kernel -> ([[R; $n]; $n], [[R; $n]; $n]) }
+            { batch inverse_dynamics_derivatives_batch from 2 }
+            { error torque_derivatives }
+
+            /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ of the forward dynamics, N×N each: entry (i, j) is ∂q̈_i/∂q_j. The last is M⁻¹,
+            /// the others are −M⁻¹ ∂τ/∂q and −M⁻¹ ∂τ/∂q̇ at q̈ = FD(q, q̇, τ) (Carpentier and Mansard, RSS 2018).
+            ForwardDynamicsDerivatives = forward_dynamics_derivatives(q, qd, tau)
+                -> ($crate::nalgebra::SMatrix<f64, $n, $n>, $crate::nalgebra::SMatrix<f64, $n, $n>, $crate::nalgebra::SMatrix<f64, $n, $n>)
+            { kernel "∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ, N×N, under the torques `tau`."
+              forward_dynamics_derivatives_kernel -> ([[R; $n]; $n], [[R; $n]; $n], [[R; $n]; $n]) }
+            { batch forward_dynamics_derivatives_batch from 2 }
+            { error acceleration_derivatives }
+
             /// M and all ∂M/∂q_i in one call.
             MassMatrixAndDerivatives = mass_matrix_and_derivatives(q)
                 -> ($crate::nalgebra::SMatrix<f64, $n, $n>, [$crate::nalgebra::SMatrix<f64, $n, $n>; $n])

@@ -6,6 +6,7 @@
 //! and the paper on joint impact torque, Eq. 15 and 22–27, for w_D and its gradient.
 
 mod base_columns;
+mod dynamics_derivatives;
 mod finite_difference;
 mod friction;
 mod kinematics;
@@ -170,5 +171,23 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         qdd: &SVector<f64, N>,
     ) -> [SMatrix<f64, N, 10>; N] {
         self.base_regressor_at(q, qd, qdd)
+    }
+
+    fn inverse_dynamics_derivatives(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> (SMatrix<f64, N, N>, SMatrix<f64, N, N>) {
+        self.torque_derivatives(q, qd, qdd)
+    }
+
+    fn forward_dynamics_derivatives(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        tau: &SVector<f64, N>,
+    ) -> (SMatrix<f64, N, N>, SMatrix<f64, N, N>, SMatrix<f64, N, N>) {
+        self.acceleration_derivatives(q, qd, tau)
     }
 }

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, SVector, Vector3};
 
 use super::SerialChain;
+use super::kinematics::JointInput;
 use crate::JointKind;
 
 /// What the link before exerts on a link at its joint: all of it, not only what the motor bears.
@@ -50,7 +51,27 @@ impl<const N: usize> SerialChain<N> {
         qd: &SVector<f64, N>,
         qdd: &SVector<f64, N>,
     ) -> [JointLoad; N] {
-        let transforms = self.transforms(&self.inputs(q));
+        self.loads_at(&self.inputs(q), qd, qdd)
+    }
+
+    /// τ of the links' motion, of joints that stand at `inputs`.
+    pub(super) fn torque_at(
+        &self,
+        inputs: &[JointInput; N],
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        let loads = self.loads_at(inputs, qd, qdd);
+        SVector::from_fn(|i, _| loads[i].along_axis(self.joints[i].kind))
+    }
+
+    fn loads_at(
+        &self,
+        inputs: &[JointInput; N],
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> [JointLoad; N] {
+        let transforms = self.transforms(inputs);
         let z = Vector3::z();
 
         // Outward: velocities and accelerations, then the force and moment that each link's inertia asks for.

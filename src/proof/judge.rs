@@ -87,10 +87,7 @@ impl<'a, const N: usize> Judge<'a, N> {
         _: impl FnOnce() -> [Square<N>; N],
     ) -> Verdict {
         let error = |i: usize| {
-            let sizes = match self.chain.joints[i].kind {
-                JointKind::Revolute => &self.scale.links,
-                JointKind::Prismatic => &self.scale.links_ahead,
-            };
+            let sizes = self.scale.links_beside(self.chain, i);
             let change = (found[i] - self.mass_derivatives[i]) * self.unit(i);
             Scale::masses(sizes, &change)
         };
@@ -251,6 +248,73 @@ impl<'a, const N: usize> Judge<'a, N> {
             Scale::torques(&sizes, &difference.column(k).into_owned())
         };
         rounded::<N>((0..N).map(error).fold(0.0, worse))
+    }
+
+    /// Of ∂τ/∂q and ∂τ/∂q̇.
+    pub(super) fn torque_derivatives(
+        &self,
+        found: (Square<N>, Square<N>),
+        expected: impl FnOnce() -> (Square<N>, Square<N>),
+    ) -> Verdict {
+        let State { qd, qdd, .. } = self.state;
+        let expected = expected();
+        let error = |j: usize| {
+            let sizes = self.scale.torque_by_position(self.chain, j, qd, qdd);
+            let by_position = (found.0.column(j) - expected.0.column(j)) * self.unit(j);
+            let by_velocity = found.1.column(j) - expected.1.column(j);
+            worse(
+                Scale::torques(&sizes, &by_position),
+                Scale::torques(&self.torque_by_velocity(j), &by_velocity),
+            )
+        };
+        rounded::<N>((0..N).map(error).fold(0.0, worse))
+    }
+
+    /// What the terms of column j of ∂τ/∂q̇ may amount to.
+    fn torque_by_velocity(&self, j: usize) -> Vector<N> {
+        let qd = &self.state.qd;
+        let mut sizes = self.scale.torque_by_velocity(qd);
+        sizes[j] += self.chain.friction_slope(qd)[j];
+        sizes
+    }
+
+    /// Of ∂q̈/∂q and ∂q̈/∂q̇ the error of the torques that they need, `M ∂q̈ + ∂τ`; of ∂q̈/∂τ that of M⁻¹.
+    ///
+    /// ∂τ/∂q is that of an acceleration which has the rounding of M⁻¹ in it: what the condition of M makes of that is counted with the sizes.
+    pub(super) fn acceleration_derivatives(
+        &self,
+        found: (Square<N>, Square<N>, Square<N>),
+        _: impl FnOnce() -> (Square<N>, Square<N>, Square<N>),
+    ) -> Verdict {
+        let State { q, qd, tau, .. } = self.state;
+        let (by_position, by_velocity, by_torque) = found;
+        let mass = self.reference.mass_matrix(q);
+        let inverse = self.reference.inverse_mass_matrix(q);
+        let qdd = self.reference.forward_dynamics(q, qd, tau);
+        let slopes = self.reference.inverse_dynamics_derivatives(q, qd, &qdd);
+        // What the acceleration may be off by, over the rounding of the torques that it is made of.
+        let off = inverse.abs() * (self.scale.torque(qd, &qdd) + tau.abs());
+        let error = |j: usize| {
+            let unit = self.unit(j);
+            let inertia = self.scale.inertia_beside(self.chain, j);
+            let needs = |slope: &Vector<N>| inertia * inertia.dot(&slope.abs());
+            let accelerated: Vector<N> = by_position.column(j) * unit;
+            let sizes = self.scale.torque_by_position(self.chain, j, qd, &qdd)
+                + needs(&accelerated)
+                + needs(&off);
+            let position = mass * accelerated + slopes.0.column(j) * unit;
+            let accelerated: Vector<N> = by_velocity.column(j).into();
+            let velocity = mass * accelerated + slopes.1.column(j);
+            worse(
+                Scale::torques(&sizes, &position),
+                Scale::torques(
+                    &(self.torque_by_velocity(j) + needs(&accelerated)),
+                    &velocity,
+                ),
+            )
+        };
+        let (masses, allowed) = self.inverse_masses(by_torque, || inverse);
+        ((0..N).map(error).fold(masses, worse), allowed)
     }
 
     fn torques_of(

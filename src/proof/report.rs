@@ -12,7 +12,8 @@ pub struct Deviation {
     pub method: &'static str,
     /// The largest error of an entry, relative to what the terms that it is a sum of can amount to: the chain's length for
     /// positions and J's rows of v, what the joints carry for M and torques, w_D for w_D, w_D or the largest entry for ∇w_D.
-    /// Forward dynamics is judged by what its accelerations need: the error is that of the torques.
+    /// Forward dynamics is judged by what its accelerations need: the error is that of the torques. So are its derivatives, `M ∂q̈ + ∂τ`
+    /// beside what ∂τ can amount to, and beside what it changes by where M⁻¹ makes an error of q̈ from the rounding of the torques.
     pub error: f64,
     /// What rounding alone may leave at that state: 8 (N + 4) ε, times the [condition](super::condition) number of w_D for w_D, and four times that for ∇w_D.
     pub tolerance: f64,

@@ -78,10 +78,53 @@ impl<const N: usize> Scale<N> {
 
     /// What the terms of each joint's torque may amount to, N·m (N), in the motion `(q̇, q̈)`.
     pub(super) fn torque(&self, qd: &SVector<f64, N>, qdd: &SVector<f64, N>) -> SVector<f64, N> {
+        self.torque_with(&self.links, qd, qdd) + self.rotors.component_mul(&qdd.abs())
+    }
+
+    /// Likewise of its derivative by q_j, times that joint's [unit](Self::unit).
+    pub(super) fn torque_by_position(
+        &self,
+        chain: &SerialChain<N>,
+        j: usize,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        self.torque_with(self.links_beside(chain, j), qd, qdd)
+    }
+
+    /// Likewise of its derivative by any q̇_j.
+    pub(super) fn torque_by_velocity(&self, qd: &SVector<f64, N>) -> SVector<f64, N> {
         let speed: f64 = qd.iter().map(|x| x.abs()).sum();
-        let accelerated: f64 = self.links.iter().zip(qdd).map(|(m, x)| m * x.abs()).sum();
-        let turned = self.links.amax() * speed * speed;
-        self.links * (accelerated + turned + self.gravity) + self.rotors.component_mul(&qdd.abs())
+        self.links * (2.0 * self.links.amax() * speed)
+    }
+
+    /// The sizes of M's entries, where a derivative by q_j is taken.
+    pub(super) fn inertia_beside(&self, chain: &SerialChain<N>, j: usize) -> &SVector<f64, N> {
+        match chain.joints[j].kind {
+            JointKind::Revolute => &self.inertia,
+            JointKind::Prismatic => &self.inertia_ahead,
+        }
+    }
+
+    /// Those of what of M changes.
+    pub(super) fn links_beside(&self, chain: &SerialChain<N>, j: usize) -> &SVector<f64, N> {
+        match chain.joints[j].kind {
+            JointKind::Revolute => &self.links,
+            JointKind::Prismatic => &self.links_ahead,
+        }
+    }
+
+    /// Of the links' torques.
+    fn torque_with(
+        &self,
+        links: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SVector<f64, N> {
+        let speed: f64 = qd.iter().map(|x| x.abs()).sum();
+        let accelerated: f64 = links.iter().zip(qdd).map(|(m, x)| m * x.abs()).sum();
+        let turned = links.amax() * speed * speed;
+        links * (accelerated + turned + self.gravity)
     }
 
     /// What the terms of each joint's impact torque may amount to, N·m (N), if `joint` locks in the motion `(q̇, q̈)`:

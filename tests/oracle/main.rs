@@ -3,6 +3,7 @@
 //!
 //! `cargo test --test oracle -- --nocapture` prints the largest errors.
 
+mod derivatives;
 mod dynamics;
 mod lock;
 mod manipulability;
@@ -44,6 +45,17 @@ impl Errors {
         actual: impl IntoIterator<Item = f64>,
         expected: &[f64],
     ) {
+        self.record_conditioned(quantity, actual, expected, 1.0);
+    }
+
+    /// The same of a quantity whose rounding a condition number multiplies: over that number.
+    fn record_conditioned(
+        &mut self,
+        quantity: &'static str,
+        actual: impl IntoIterator<Item = f64>,
+        expected: &[f64],
+        condition: f64,
+    ) {
         let actual: Vec<f64> = actual.into_iter().collect();
         assert_eq!(actual.len(), expected.len(), "{quantity}");
         let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
@@ -54,7 +66,7 @@ impl Errors {
         let error = if scale == 0.0 {
             difference
         } else {
-            difference / scale
+            difference / (scale * condition)
         };
         match self.0.iter_mut().find(|(name, _)| *name == quantity) {
             Some((_, largest)) => *largest = largest.max(error),
@@ -146,6 +158,11 @@ macro_rules! both {
         #[test]
         fn regressor() {
             crate::regressor::agrees($backend, $name, &$arm);
+        }
+
+        #[test]
+        fn derivatives() {
+            crate::derivatives::agrees($backend, $name, &$arm);
         }
     };
 }

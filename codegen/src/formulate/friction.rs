@@ -23,6 +23,25 @@ pub(crate) fn friction<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Expr<'g>> 
         .collect()
 }
 
+/// Its slope by the joint's own rate: `viscous + coulomb ε² / (q̇² + ε²)^(3/2)`, ε the smoothing.
+pub(crate) fn friction_slope<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let joints = chain.joints.iter().zip(qd);
+    joints
+        .map(|(joint, rate)| {
+            let Friction {
+                viscous,
+                coulomb,
+                smoothing,
+            } = joint.friction;
+            let constant = |value: f64| chain.graph.constant(value);
+            let squared = constant(smoothing) * constant(smoothing);
+            let speed_squared = *rate * *rate + squared;
+            let cubed = speed_squared * speed_squared.sqrt();
+            constant(viscous) + constant(coulomb) * squared / cubed
+        })
+        .collect()
+}
+
 /// The sum of torques, joint by joint.
 pub(crate) fn with_friction<'g>(
     chain: &Chain<'g>,

@@ -14,11 +14,19 @@ use crate::graph::{Expr, Input};
 
 /// Motion of a link.
 #[derive(Clone, Copy)]
-struct Motion<'g> {
-    velocity: Vec3<'g>,
-    angular_acceleration: Vec3<'g>,
+pub(super) struct Motion<'g> {
+    /// Angular velocity.
+    pub(super) velocity: Vec3<'g>,
+    pub(super) angular_acceleration: Vec3<'g>,
     /// Of the joint's origin, gravity taken off.
-    acceleration: Vec3<'g>,
+    pub(super) acceleration: Vec3<'g>,
+}
+
+/// What the link before exerts on a link at its joint, the moment about the joint's origin.
+#[derive(Clone, Copy)]
+pub(super) struct Wrench<'g> {
+    pub(super) force: Vec3<'g>,
+    pub(super) moment: Vec3<'g>,
 }
 
 impl<'g> Motion<'g> {
@@ -31,7 +39,7 @@ impl<'g> Motion<'g> {
     }
 
     /// Λ, by rows.
-    fn lambda(&self) -> [Vec3<'g>; 3] {
+    pub(super) fn lambda(&self) -> [Vec3<'g>; 3] {
         let ([x, y, z], [ax, ay, az]) = (self.velocity.0, self.angular_acceleration.0);
         let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
         [
@@ -46,48 +54,76 @@ fn times<'g>(rows: &[Vec3<'g>; 3], v: Vec3<'g>) -> Vec3<'g> {
     Vec3(rows.map(|row| row.dot(v)))
 }
 
-/// Force and moment.
-pub(crate) type Wrench<'g> = (Vec3<'g>, Vec3<'g>);
-
 /// τ for velocities `qd` and accelerations `qdd`, without friction; zeros fold, so that gravity alone or bias alone costs what it needs.
 pub(crate) fn inverse_dynamics<'g>(
     chain: &Chain<'g>,
     qd: &[Expr<'g>],
     qdd: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
-    inverse_dynamics_with_load(chain, qd, qdd, (chain.zero(), chain.zero()))
+    inverse_dynamics_with_load(chain, qd, qdd, unloaded(chain))
+}
+
+/// Nothing.
+pub(super) fn unloaded<'g>(chain: &Chain<'g>) -> Wrench<'g> {
+    Wrench {
+        force: chain.zero(),
+        moment: chain.zero(),
+    }
 }
 
 /// The same where the last link also bears `load`, about its joint's origin, in its group's axes.
-pub(crate) fn inverse_dynamics_with_load<'g>(
+pub(super) fn inverse_dynamics_with_load<'g>(
     chain: &Chain<'g>,
     qd: &[Expr<'g>],
     qdd: &[Expr<'g>],
     load: Wrench<'g>,
 ) -> Vec<Expr<'g>> {
-    let motions = outward(chain, qd, qdd);
-    let (mut force, mut moment) = load;
-    let mut torques = vec![chain.graph.constant(0.0); chain.joint_count()];
+    let wrenches = inward(chain, &outward(chain, qd, qdd), load);
+    let joints = chain.joints.iter().zip(wrenches).zip(qdd);
+    joints
+        .map(|((joint, wrench), qdd)| {
+            let along = match joint.kind {
+                JointKind::Revolute => wrench.moment.0[2],
+                JointKind::Prismatic => wrench.force.0[2],
+            };
+            along + joint.reflected * *qdd
+        })
+        .collect()
+}
+
+/// What the motions of all links beyond a joint take there, base first, each in its group's axes; the last link also bears `load`.
+pub(super) fn inward<'g>(
+    chain: &Chain<'g>,
+    motions: &[Motion<'g>],
+    load: Wrench<'g>,
+) -> Vec<Wrench<'g>> {
+    let Wrench {
+        mut force,
+        mut moment,
+    } = load;
+    let mut wrenches = Vec::new();
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
             let body = joint.body.turn_z(joint.group_from_own);
             body.labelled("own", &format!("_{}", i + 1));
-            let (own_force, own_moment) = wrench(&body, &motions[i]);
-            own_force.labelled("own_wrench", |axis| format!("f{axis}_own_{}", i + 1));
-            own_moment.labelled("own_wrench", |axis| format!("n{axis}_own_{}", i + 1));
-            force = force + own_force;
-            moment = moment + own_moment;
-            // The torque itself is for the caller to name.
+            let own = wrench(&body, &motions[i]);
+            own.force
+                .labelled("own_wrench", |axis| format!("f{axis}_own_{}", i + 1));
+            own.moment
+                .labelled("own_wrench", |axis| format!("n{axis}_own_{}", i + 1));
+            force = force + own.force;
+            moment = moment + own.moment;
+            // What the joint itself feels is for the caller to name.
             let ([fx, fy, fz], [nx, ny, nz]) = (force.0, moment.0);
             let zero = chain.graph.constant(0.0);
-            let (along, f, n) = match joint.kind {
-                JointKind::Revolute => (nz, force, Vec3([nx, ny, zero])),
-                JointKind::Prismatic => (fz, Vec3([fx, fy, zero]), moment),
+            let (f, n) = match joint.kind {
+                JointKind::Revolute => ([fx, fy, fz], [nx, ny, zero]),
+                JointKind::Prismatic => ([fx, fy, zero], [nx, ny, nz]),
             };
-            f.named("f", &[i]);
-            n.named("n", &[i]);
-            torques[i] = along + joint.reflected * qdd[i];
+            Vec3(f).named("f", &[i]);
+            Vec3(n).named("n", &[i]);
+            wrenches.push(Wrench { force, moment });
             if i == group.joints.start {
                 force = group.to_parent_named(force, "f", &[i]);
                 moment = group.to_parent_named(moment, "n", &[i]);
@@ -95,21 +131,25 @@ pub(crate) fn inverse_dynamics_with_load<'g>(
             moment = moment + joint.offset.cross(force);
         }
     }
-    torques
+    wrenches.reverse();
+    wrenches
 }
 
 /// What the last link bears because the argument `wrench` acts on the tool: about the last joint's origin, in its group's axes.
-pub(crate) fn load_of_wrench<'g>(chain: &Chain<'g>) -> Wrench<'g> {
+pub(super) fn load_of_wrench<'g>(chain: &Chain<'g>) -> Wrench<'g> {
     let [fx, fy, fz, nx, ny, nz] = std::array::from_fn(|i| -chain.graph.input(Input::Wrench(i)));
     let groups = chain.groups.len();
     let in_last = |v: Vec3<'g>| express(chain, chain.of_world(v), 0, groups);
     let (force, moment) = (in_last(Vec3([fx, fy, fz])), in_last(Vec3([nx, ny, nz])));
     let to_tool = Vec3::constant(chain.graph, chain.tool.translation);
-    (force, moment + to_tool.cross(force))
+    Wrench {
+        force,
+        moment: moment + to_tool.cross(force),
+    }
 }
 
 /// The links' motions, base first, each in its group's axes.
-fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Motion<'g>> {
+pub(super) fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Motion<'g>> {
     let mut motion = Motion {
         velocity: chain.zero(),
         angular_acceleration: chain.zero(),
@@ -169,5 +209,8 @@ fn wrench<'g>(body: &Body<'g>, motion: &Motion<'g>) -> Wrench<'g> {
         izz * az + (iyy - ixx) * (x * y) - ixz * lyz + iyz * lxz + ixy * (lxx - lyy),
     ]);
     let force = motion.acceleration.scale(body.mass) + times(&lambda, body.moment);
-    (force, spin + body.moment.cross(motion.acceleration))
+    Wrench {
+        force,
+        moment: spin + body.moment.cross(motion.acceleration),
+    }
 }

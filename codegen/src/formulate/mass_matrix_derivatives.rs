@@ -54,7 +54,7 @@ pub(crate) fn mass_matrix_derivatives<'g>(chain: &Chain<'g>) -> Vec<Vec<Vec<Expr
 }
 
 /// For each joint, the unit twists of the joints before it: at its origin, in its group's axes.
-fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
+pub(super) fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
     let mut all = Vec::new();
     let mut twists: Vec<Twist<'g>> = Vec::new();
     for group in &chain.groups {
@@ -74,19 +74,24 @@ fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
                 twist.angular.labelled("twist", place("w"));
             }
             all.push(twists.clone());
-            twists.push(match joint.kind {
-                JointKind::Revolute => Twist {
-                    linear: chain.zero(),
-                    angular: chain.axis(),
-                },
-                JointKind::Prismatic => Twist {
-                    linear: chain.axis(),
-                    angular: chain.zero(),
-                },
-            });
+            twists.push(unit_twist(chain, joint.kind));
         }
     }
     all
+}
+
+/// The unit twist of a joint of this kind, at its origin, in its group's axes.
+pub(super) fn unit_twist<'g>(chain: &Chain<'g>, kind: JointKind) -> Twist<'g> {
+    match kind {
+        JointKind::Revolute => Twist {
+            linear: chain.zero(),
+            angular: chain.axis(),
+        },
+        JointKind::Prismatic => Twist {
+            linear: chain.axis(),
+            angular: chain.zero(),
+        },
+    }
 }
 
 /// (s × s_i) · F, where s_i is the unit twist of a joint of this kind along z.
@@ -124,7 +129,7 @@ fn rate_of_change<'g>(kind: JointKind, body: &Body<'g>) -> Body<'g> {
 }
 
 /// Momentum of a body that moves with a twist.
-fn momentum_of<'g>(body: &Body<'g>, twist: &Twist<'g>) -> Momentum<'g> {
+pub(super) fn momentum_of<'g>(body: &Body<'g>, twist: &Twist<'g>) -> Momentum<'g> {
     Momentum {
         linear: twist.linear.scale(body.mass) + twist.angular.cross(body.moment),
         angular: body.inertia.times(twist.angular) + body.moment.cross(twist.linear),

@@ -6,15 +6,19 @@
 pub(crate) mod articulated;
 pub(crate) mod body;
 pub(crate) mod chain;
+mod coriolis;
 pub(crate) mod factorization;
+pub(crate) mod forward_dynamics_derivatives;
 pub(crate) mod friction;
 pub(crate) mod inverse_dynamics;
+pub(crate) mod inverse_dynamics_derivatives;
 pub(crate) mod kinematics;
 pub(crate) mod legend;
 pub(crate) mod lock_impacts;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
+mod matrix;
 pub(crate) mod regressor;
 pub(crate) mod task;
 pub(crate) mod vector;
@@ -22,10 +26,12 @@ pub(crate) mod vector;
 use ulna::{Method, Parameter, TaskRow};
 
 use self::chain::Chain;
+use self::factorization::Factors;
 use self::friction::{friction, with_friction};
 use self::inverse_dynamics::{
-    Wrench, inverse_dynamics, inverse_dynamics_with_load, load_of_wrench,
+    Wrench, inverse_dynamics, inverse_dynamics_with_load, load_of_wrench, unloaded,
 };
+use self::inverse_dynamics_derivatives::inverse_dynamics_derivatives;
 use self::kinematics::{jacobian_derivatives, jacobian_in_world, pose};
 use self::lock_impacts::lock_impacts;
 use self::mass_matrix::mass_matrix;
@@ -56,6 +62,8 @@ pub struct Choices {
     pub singular: bool,
     /// Which columns of the regressor are those of base parameters.
     pub base: Columns,
+    /// The joint at which twists and wrenches meet in ∂τ/∂q and ∂τ/∂q̇.
+    pub meeting: usize,
 }
 
 /// As the table says.
@@ -71,6 +79,7 @@ impl Default for Choices {
             articulated: false,
             singular: false,
             base: Columns::default(),
+            meeting: 0,
         }
     }
 }
@@ -80,8 +89,10 @@ impl Default for Choices {
 pub(crate) enum Chosen {
     /// [`Choices::world`].
     World,
-    /// All else: how w_D and M's inverse are computed.
+    /// How w_D and M's inverse are computed.
     Task,
+    /// [`Choices::meeting`].
+    Meeting,
 }
 
 /// The choices that a method's formulas depend on. One that is not listed may depend on all of them:
@@ -100,6 +111,8 @@ pub(crate) fn depends_on(method: Method) -> &'static [Chosen] {
         | Method::FrictionTorque
         | Method::MassMatrixAndDerivatives => &[],
         Method::GeometricJacobian | Method::JacobianDerivatives => &[Chosen::World],
+        Method::InverseDynamicsDerivatives => &[Chosen::Meeting],
+        Method::ForwardDynamicsDerivatives => &[Chosen::Task, Chosen::Meeting],
         _ => &[Chosen::World, Chosen::Task],
     }
 }
@@ -140,6 +153,8 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
             vec![torques(chain, named(friction, "friction"))]
         }
         Method::LockImpacts => vec![impacts(chain)],
+        Method::InverseDynamicsDerivatives => torque_derivatives(chain, choices),
+        Method::ForwardDynamicsDerivatives => forward_dynamics_derivatives::outputs(chain, choices),
         Method::MassMatrixAndDerivatives => vec![mass(chain), derivatives_of_mass(chain)],
         Method::JacobianAndGradient => {
             let mut outputs = vec![jacobian(chain, choices)];
@@ -204,18 +219,17 @@ fn derivatives_of_mass<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
 
 fn inverse_mass<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
     let n = chain.joint_count();
-    let factors = if choices.articulated {
+    let inverse = named_square(factors(chain, choices).inverse(), "m_inv");
+    Output::new("inverse", &[n, n], inverse.concat())
+}
+
+/// M's factors, from M or, where that would lose a light link, from articulated bodies.
+fn factors<'g>(chain: &Chain<'g>, choices: Choices) -> Factors<'g> {
+    if choices.articulated {
         articulated::factors(chain)
     } else {
         factorization::factor(&mass_matrix(chain))
-    };
-    let inverse = factors.inverse();
-    for (i, row) in inverse.iter().enumerate() {
-        for (j, x) in row.iter().enumerate() {
-            x.named("m_inv", &[i, j]);
-        }
     }
-    Output::new("inverse", &[n, n], inverse.concat())
 }
 
 /// Names one value for each joint.
@@ -224,6 +238,16 @@ fn named<'g>(values: Vec<Expr<'g>>, family: &'static str) -> Vec<Expr<'g>> {
         x.named(family, &[i]);
     }
     values
+}
+
+/// Names a square matrix, by rows.
+fn named_square<'g>(rows: Vec<Vec<Expr<'g>>>, family: &'static str) -> Vec<Vec<Expr<'g>>> {
+    for (i, row) in rows.iter().enumerate() {
+        for (j, x) in row.iter().enumerate() {
+            x.named(family, &[i, j]);
+        }
+    }
+    rows
 }
 
 fn torques<'g>(chain: &Chain<'g>, elements: Vec<Expr<'g>>) -> Output<Expr<'g>> {
@@ -236,18 +260,25 @@ fn impacts<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
     Output::new("impacts", &[n, n], lock_impacts(chain).concat())
 }
 
-fn unloaded<'g>(chain: &Chain<'g>) -> Wrench<'g> {
-    (chain.zero(), chain.zero())
+fn torque_derivatives<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
+    let (qd, qdd) = (chain.inputs(Input::Qd), chain.inputs(Input::Qdd));
+    let [by_position, by_velocity] =
+        inverse_dynamics_derivatives(chain, &qd, &qdd, choices.meeting);
+    vec![
+        by_columns("by_position", &by_position),
+        by_columns("by_velocity", &by_velocity),
+    ]
+}
+
+/// A square matrix, given by rows.
+fn by_columns<'g>(name: &'static str, rows: &[Vec<Expr<'g>>]) -> Output<Expr<'g>> {
+    let n = rows.len();
+    let entries = (0..n).flat_map(|j| rows.iter().map(move |row| row[j]));
+    Output::new(name, &[n, n], entries.collect())
 }
 
 fn forward_dynamics<'g>(chain: &Chain<'g>, load: Wrench<'g>) -> Outputs<'g> {
-    let qd = chain.inputs(Input::Qd);
-    let bias = inverse_dynamics_with_load(chain, &qd, &zeros(chain), load);
-    let bias = with_friction(chain, &qd, bias);
-    let tau = chain.inputs(Input::Tau).into_iter();
-    let driving = tau.zip(named(bias, "bias"));
-    let driving: Vec<Expr<'g>> = driving.map(|(tau, bias)| tau - bias).collect();
-    let driving = named(driving, "net");
+    let driving = driving(chain, load);
     let elements = factorization::factor(&mass_matrix(chain)).solve(&driving);
     let elements = named(elements, "qdd");
     vec![Output::new(
@@ -261,4 +292,13 @@ fn regressor<'g>(chain: &Chain<'g>, columns: Columns) -> Output<Expr<'g>> {
     let n = chain.joint_count();
     let elements = regressor_columns(chain, columns).concat().concat();
     Output::new("regressor", &[n, Parameter::COUNT, n], elements)
+}
+
+/// What of the torques accelerates: τ − c − g − f, and what the last link bears.
+fn driving<'g>(chain: &Chain<'g>, load: Wrench<'g>) -> Vec<Expr<'g>> {
+    let qd = chain.inputs(Input::Qd);
+    let bias = inverse_dynamics_with_load(chain, &qd, &zeros(chain), load);
+    let bias = named(with_friction(chain, &qd, bias), "bias");
+    let pairs = chain.inputs(Input::Tau).into_iter().zip(bias);
+    named(pairs.map(|(tau, bias)| tau - bias).collect(), "net")
 }

@@ -14,11 +14,10 @@
 //   bias_force                             4       1      12       0       0       0      17       2   2e-14
 //   gravity_torque                         2       0       7       0       0       0       9       2   2e-14
 //   forward_dynamics                       6       6      19       1       0       0      32       2   2e-14
-//   lock_impacts                           3       3      13       0       0       0      19       1   2e-15
+//   inverse_dynamics_derivatives           6       3      18       0       4       0      31       2   9e-15
+//   forward_dynamics_derivatives          15      12      46       1       4       0      78       2   2e-14
 //   mass_matrix_and_derivatives            2       0       2       0       2       0       6       1   2e-15
 //   jacobian_and_gradient                 24      21      75       4       2       1     127       2   7e-12
-//   regressor                              7       3      12       0       3       0      25       2   3e-15
-//   base_regressor                         7       3      12       0       3       0      25       2   3e-15
 //
 // error: of the worst entry, relative to the largest, in double precision. 8 times what was measured at
 // 16 random states and 5 near singular poses, where J's rows span 1e-4 of the product of their lengths.
@@ -76,15 +75,6 @@ impl Planar2r {
         gravity: [0.0, -9.81, 0.0],
         task: ::ulna::TaskRows::new(&[::ulna::TaskRow::X, ::ulna::TaskRow::Y]),
     };
-    /// The base (minimal) inertial parameters: each one's link and its column in the link's block of the regressor, both from 0.
-    pub const BASE_PARAMETERS: [(usize, usize); 6] = [
-        (0, 1),
-        (0, 2),
-        (0, 9),
-        (1, 1),
-        (1, 2),
-        (1, 9),
-    ];
 }
 #[rustfmt::skip]
 impl ::ulna::Unrolled<2> for Planar2r {
@@ -346,27 +336,89 @@ impl ::ulna::Unrolled<2> for Planar2r {
             * t6.neg_mul_add(t8, t5);
         [t9, t8.neg_mul_add(t9, t6 * R::of(2.9985944088708423))]
     }
-    /// Joint impact torques, N×N, N·m: column k if joint k locks, before minus after.
+    /// ∂τ/∂q and ∂τ/∂q̇, N×N, for the accelerations `qdd`.
     ///
-    /// Operations: 19, and sine and cosine of 1 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-15.
+    /// Operations: 31, and sine and cosine of 2 angles.
+    /// Rounding error of the worst entry, relative to the largest: 9e-15.
     #[inline(always)]
-    fn lock_impacts_kernel<R: ::ulna::Real>(
+    fn inverse_dynamics_derivatives_kernel<R: ::ulna::Real>(
         q: &[R; 2],
         qd: &[R; 2],
         qdd: &[R; 2],
-    ) -> [[R; 2]; 2] {
-        let ([s2], [c2]) = R::sin_cos_all([q[1]]);
-        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t2 = s2 * (qd[0] * qd[1]);
-        let t3 = (R::of(0.5) * s2).neg_mul_add(qd[1] * qd[1], t1 * qdd[1]) - t2;
-        [
+    ) -> ([[R; 2]; 2], [[R; 2]; 2]) {
+        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
+        let t1 = s12 * R::of(9.81);
+        let t2 = qd[0] + qd[1];
+        let t3 = R::of(0.5) * (t1 + c2.neg_mul_add(qd[0] * qd[0], s2 * qdd[0]));
+        let t4 = s2 * qd[0];
+        let t5 = s2 * t2;
+        let t6 = c2
+            .mul_add(R::of(0.5) * (t2 * t2), s2 * (R::of(0.5) * (qdd[0] + qdd[1])));
+        let t7 = t1
+            .neg_mul_add(
+                c2.mul_add(R::of(1.5), R::of(0.5)),
+                c12 * R::of(9.81) * (R::of(1.5) * s2),
+            );
+        (
+            [[t7, -(s12 * R::of(4.905))], [-(t3 + t6), -t3]],
+            [[t4 - t5, t4], [-t5, R::of(0.0)]],
+        )
+    }
+    /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ, N×N, under the torques `tau`.
+    ///
+    /// Operations: 78, and sine and cosine of 2 angles.
+    /// Rounding error of the worst entry, relative to the largest: 2e-14.
+    #[inline(always)]
+    fn forward_dynamics_derivatives_kernel<R: ::ulna::Real>(
+        q: &[R; 2],
+        qd: &[R; 2],
+        tau: &[R; 2],
+    ) -> ([[R; 2]; 2], [[R; 2]; 2], [[R; 2]; 2]) {
+        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
+        let t1 = s12 * R::of(9.81);
+        let t2 = c12 * R::of(9.81);
+        let t3 = qd[0] * qd[0];
+        let t4 = qd[0] + qd[1];
+        let t5 = R::of(0.5) * (t4 * t4);
+        let t6 = R::of(0.5) * s2.mul_add(t3, t2);
+        let t7 = R::of(1.5) * c2;
+        let t8 = R::of(1.5) * s2;
+        let t9 = s2.neg_mul_add(t5, t6) + t2.mul_add(t7, t1 * t8);
+        let t10 = tau[1] - t6;
+        let t11 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t12 = t11 * R::of(2.9985944088708423);
+        let t13 = R::of(1.0) / t11.neg_mul_add(t12, R::of(1.6669791666666667) + c2);
+        let t14 = t13 * t10.neg_mul_add(t12, tau[0] - t9);
+        let t15 = t1 + c2.neg_mul_add(t3, s2 * t14);
+        let t16 = R::of(0.5) * t15;
+        let t17 = s2 * qd[0];
+        let t18 = s2 * t4;
+        let t19 = c2
+            .mul_add(
+                t5,
+                s2
+                    * (R::of(0.5)
+                        * (t14 + t12.neg_mul_add(t14, t10 * R::of(2.9985944088708423)))),
+            );
+        let t20 = t12
+            .mul_add(s12 * R::of(4.905), t1.neg_mul_add(R::of(0.5) + t7, t2 * t8));
+        let t21 = t13 * t20;
+        let t22 = t13 * t12.neg_mul_add(t16, t16 + t19);
+        let t23 = t13 * t12.mul_sub(t17, t17 - t18);
+        let t24 = t13 * t18;
+        let t25 = t12 * t13;
+        let t26 = -t25;
+        (
             [
-                (R::of(1.6669791666666667) + c2).mul_sub(qdd[0], t2),
-                t1.mul_add(qdd[0], s2 * (R::of(0.5) * (qd[0] * qd[0]))),
+                [-t21, s12.mul_add(R::of(14.708105575511482), t12 * t21)],
+                [t22, t12.neg_mul_add(t22, t15 * R::of(1.4992972044354211))],
             ],
-            [t3, R::of(0.3334895833333333) * qdd[1]],
-        ]
+            [
+                [t23, -t17.mul_add(R::of(2.9985944088708423), t12 * t23)],
+                [t24, -(t12 * t24)],
+            ],
+            [[t13, t26], [t26, t12.mul_add(t25, R::of(2.9985944088708423))]],
+        )
     }
     /// Mass matrix, and its derivatives by each joint.
     ///
@@ -447,100 +499,6 @@ impl ::ulna::Unrolled<2> for Planar2r {
             [t21 * t32, t21 * (t32 + t33)],
             t34 * t36.mul_add(t36, t37 * t37),
         )
-    }
-    /// Regressor, N×10 for each link: torques, N·m, of its unit parameters m, m·c (x, y, z), I (xx, xy, xz, yy, yz, zz).
-    ///
-    /// Operations: 25, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 3e-15.
-    #[inline(always)]
-    fn regressor_kernel<R: ::ulna::Real>(
-        q: &[R; 2],
-        qd: &[R; 2],
-        qdd: &[R; 2],
-    ) -> [[[R; 2]; 10]; 2] {
-        let ([s1, s2], [c1, c2]) = R::sin_cos_all([q[0], q[1]]);
-        let t1 = R::of(9.81) * s1;
-        let t2 = R::of(9.81) * c1;
-        let t3 = qd[0].neg_mul_add(qd[0], t1);
-        let t4 = qdd[0] + t2;
-        let t5 = c2.mul_add(t3, s2 * t4);
-        let t6 = s2.neg_mul_add(t3, c2 * t4);
-        let t7 = qdd[0] + qdd[1];
-        let t8 = qd[0] + qd[1];
-        let t9 = t8 * t8;
-        [
-            [
-                [R::of(0.0), R::of(0.0)],
-                [t2, R::of(0.0)],
-                [-t1, R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [qdd[0], R::of(0.0)],
-            ],
-            [
-                [t4, R::of(0.0)],
-                [t6 + s2.neg_mul_add(t9, c2 * t7), t6],
-                [-(t5 + s2.mul_add(t7, c2 * t9)), -t5],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [t7, t7],
-            ],
-        ]
-    }
-    /// The regressor's columns of base parameters, N×10 for each link; all others are 0.
-    ///
-    /// Operations: 25, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 3e-15.
-    #[inline(always)]
-    fn base_regressor_kernel<R: ::ulna::Real>(
-        q: &[R; 2],
-        qd: &[R; 2],
-        qdd: &[R; 2],
-    ) -> [[[R; 2]; 10]; 2] {
-        let ([s1, s2], [c1, c2]) = R::sin_cos_all([q[0], q[1]]);
-        let t1 = R::of(9.81) * s1;
-        let t2 = R::of(9.81) * c1;
-        let t3 = qd[0].neg_mul_add(qd[0], t1);
-        let t4 = qdd[0] + t2;
-        let t5 = c2.mul_add(t3, s2 * t4);
-        let t6 = s2.neg_mul_add(t3, c2 * t4);
-        let t7 = qdd[0] + qdd[1];
-        let t8 = qd[0] + qd[1];
-        let t9 = t8 * t8;
-        [
-            [
-                [R::of(0.0), R::of(0.0)],
-                [t2, R::of(0.0)],
-                [-t1, R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [qdd[0], R::of(0.0)],
-            ],
-            [
-                [R::of(0.0), R::of(0.0)],
-                [t6 + s2.neg_mul_add(t9, c2 * t7), t6],
-                [-(t5 + s2.mul_add(t7, c2 * t9)), -t5],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [t7, t7],
-            ],
-        ]
     }
 }
 ::ulna::implement_arm!(Planar2r, 2);

@@ -9,6 +9,7 @@ mod exponentials;
 
 pub(crate) mod drives;
 pub(crate) mod dynamics;
+pub(crate) mod dynamics_derivatives;
 pub(crate) mod kinematics;
 pub(crate) mod lock;
 pub(crate) mod manipulability;
@@ -45,6 +46,12 @@ macro_rules! conformance {
             lock::lock_impacts_are_differences_of_inverse_dynamics
             lock::a_lock_of_a_joint_at_rest_changes_nothing
             lock::lock_impacts_have_the_parts_of_inverse_dynamics
+            dynamics_derivatives::torque_derivatives_agree_with_differences
+            dynamics_derivatives::torque_derivatives_agree_with_exponentials
+            dynamics_derivatives::torque_derivatives_at_rest_are_those_of_the_mass_matrix_and_of_gravity
+            dynamics_derivatives::torque_derivatives_by_rates_are_twice_the_coriolis_matrix
+            dynamics_derivatives::acceleration_derivatives_agree_with_differences
+            dynamics_derivatives::acceleration_derivatives_undo_torque_derivatives
             manipulability::manipulability_is_that_of_its_own_jacobian_and_mass_matrix
             manipulability::manipulability_gradient_agrees_with_differences
             manipulability::manipulability_agrees_with_dual_numbers
