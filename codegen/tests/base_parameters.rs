@@ -220,7 +220,7 @@ fn the_textbook_finds_the_same_columns_of_the_longest_arm() {
     }
     let model = Model::parse(&table, "long").unwrap_or_else(|errors| panic!("{errors}"));
     let chain = SerialChain::<32>::try_from(&model).expect("32 joints");
-    let q = SVector::from_fn(|i, _| 0.1 * i as f64);
+    let q = SVector::from_fn(|i, _| 0.1 * (i + 1) as f64);
     let blocks = chain.base_regressor(&q, &q, &q);
     let kept = (0..32).flat_map(|link| Parameter::ALL.map(|parameter| (link, parameter)));
     let kept =
