@@ -13,15 +13,43 @@ use crate::graph::Expr;
 
 /// Motion of a link.
 #[derive(Clone, Copy)]
-struct Motion<'g> {
-    velocity: Vec3<'g>,
-    angular_acceleration: Vec3<'g>,
+pub(super) struct Motion<'g> {
+    /// Angular.
+    pub(super) velocity: Vec3<'g>,
+    pub(super) angular_acceleration: Vec3<'g>,
     /// Of the joint's origin, gravity taken off.
-    acceleration: Vec3<'g>,
+    pub(super) acceleration: Vec3<'g>,
 }
 
 impl<'g> Motion<'g> {
-    fn map(self, f: impl Fn(Vec3<'g>) -> Vec3<'g>) -> Self {
+    /// Of the base: at rest, but for gravity.
+    pub(super) fn of_base(chain: &Chain<'g>) -> Self {
+        Self {
+            velocity: chain.zero(),
+            angular_acceleration: chain.zero(),
+            acceleration: -chain.gravity,
+        }
+    }
+
+    /// Of a link, if this is the motion at its joint's origin of the link before, in axes whose z is the joint's.
+    pub(super) fn moved_by(self, kind: JointKind, qd: Expr<'g>, qdd: Expr<'g>) -> Self {
+        let [wx, wy, wz] = self.velocity.0;
+        let across = |rate: Expr<'g>| Vec3([wy * rate, -(wx * rate), qdd]);
+        match kind {
+            JointKind::Revolute => Self {
+                angular_acceleration: self.angular_acceleration + across(qd),
+                velocity: Vec3([wx, wy, wz + qd]),
+                ..self
+            },
+            JointKind::Prismatic => Self {
+                acceleration: self.acceleration + across(qd.of(2.0) * qd),
+                ..self
+            },
+        }
+    }
+
+    /// The same to all of it.
+    pub(super) fn map(self, f: impl Fn(Vec3<'g>) -> Vec3<'g>) -> Self {
         Self {
             velocity: f(self.velocity),
             angular_acceleration: f(self.angular_acceleration),
@@ -30,7 +58,7 @@ impl<'g> Motion<'g> {
     }
 
     /// Λ, by rows.
-    fn lambda(&self) -> [Vec3<'g>; 3] {
+    pub(super) fn lambda(&self) -> [Vec3<'g>; 3] {
         let ([x, y, z], [ax, ay, az]) = (self.velocity.0, self.angular_acceleration.0);
         let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
         [
@@ -41,7 +69,7 @@ impl<'g> Motion<'g> {
     }
 }
 
-fn times<'g>(rows: &[Vec3<'g>; 3], v: Vec3<'g>) -> Vec3<'g> {
+pub(super) fn times<'g>(rows: &[Vec3<'g>; 3], v: Vec3<'g>) -> Vec3<'g> {
     Vec3(rows.map(|row| row.dot(v)))
 }
 
@@ -78,11 +106,7 @@ pub(crate) fn inverse_dynamics<'g>(
 
 /// The links' motions, base first, each in its group's axes.
 fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Motion<'g>> {
-    let mut motion = Motion {
-        velocity: chain.zero(),
-        angular_acceleration: chain.zero(),
-        acceleration: -chain.gravity,
-    };
+    let mut motion = Motion::of_base(chain);
     let mut motions = Vec::new();
     for group in &chain.groups {
         for i in group.joints.clone() {
@@ -91,19 +115,7 @@ fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Moti
             if i == group.joints.start {
                 motion = motion.map(|v| group.of_parent(v));
             }
-            let [wx, wy, wz] = motion.velocity.0;
-            let across = |rate: Expr<'g>, last| Vec3([wy * rate, -(wx * rate), last]);
-            match joint.kind {
-                JointKind::Revolute => {
-                    motion.angular_acceleration =
-                        motion.angular_acceleration + across(qd[i], qdd[i]);
-                    motion.velocity = Vec3([wx, wy, wz + qd[i]]);
-                }
-                JointKind::Prismatic => {
-                    let coriolis = across(qd[i].of(2.0) * qd[i], qdd[i]);
-                    motion.acceleration = motion.acceleration + coriolis;
-                }
-            }
+            motion = motion.moved_by(joint.kind, qd[i], qdd[i]);
             motions.push(motion);
         }
     }

@@ -63,16 +63,7 @@ fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
                 }
             }
             all.push(twists.clone());
-            twists.push(match joint.kind {
-                JointKind::Revolute => Twist {
-                    linear: chain.zero(),
-                    angular: chain.axis(),
-                },
-                JointKind::Prismatic => Twist {
-                    linear: chain.axis(),
-                    angular: chain.zero(),
-                },
-            });
+            twists.push(Twist::unit(chain, joint.kind));
         }
     }
     all
