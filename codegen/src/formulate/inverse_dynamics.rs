@@ -30,7 +30,34 @@ pub(super) struct Wrench<'g> {
 }
 
 impl<'g> Motion<'g> {
-    fn map(self, f: impl Fn(Vec3<'g>) -> Vec3<'g>) -> Self {
+    /// Of the base: at rest, but for gravity.
+    pub(super) fn of_base(chain: &Chain<'g>) -> Self {
+        Self {
+            velocity: chain.zero(),
+            angular_acceleration: chain.zero(),
+            acceleration: -chain.gravity,
+        }
+    }
+
+    /// Of a link, if this is the motion at its joint's origin of the link before, in axes whose z is the joint's.
+    pub(super) fn moved_by(self, kind: JointKind, qd: Expr<'g>, qdd: Expr<'g>) -> Self {
+        let [wx, wy, wz] = self.velocity.0;
+        let across = |rate: Expr<'g>| Vec3([wy * rate, -(wx * rate), qdd]);
+        match kind {
+            JointKind::Revolute => Self {
+                angular_acceleration: self.angular_acceleration + across(qd),
+                velocity: Vec3([wx, wy, wz + qd]),
+                ..self
+            },
+            JointKind::Prismatic => Self {
+                acceleration: self.acceleration + across(qd.of(2.0) * qd),
+                ..self
+            },
+        }
+    }
+
+    /// The same to all of it.
+    pub(super) fn map(self, f: impl Fn(Vec3<'g>) -> Vec3<'g>) -> Self {
         Self {
             velocity: f(self.velocity),
             angular_acceleration: f(self.angular_acceleration),
@@ -50,7 +77,7 @@ impl<'g> Motion<'g> {
     }
 }
 
-fn times<'g>(rows: &[Vec3<'g>; 3], v: Vec3<'g>) -> Vec3<'g> {
+pub(super) fn times<'g>(rows: &[Vec3<'g>; 3], v: Vec3<'g>) -> Vec3<'g> {
     Vec3(rows.map(|row| row.dot(v)))
 }
 
@@ -150,11 +177,7 @@ pub(super) fn load_of_wrench<'g>(chain: &Chain<'g>) -> Wrench<'g> {
 
 /// The links' motions, base first, each in its group's axes.
 pub(super) fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Motion<'g>> {
-    let mut motion = Motion {
-        velocity: chain.zero(),
-        angular_acceleration: chain.zero(),
-        acceleration: -chain.gravity,
-    };
+    let mut motion = Motion::of_base(chain);
     let mut motions = Vec::new();
     for group in &chain.groups {
         for i in group.joints.clone() {
@@ -166,19 +189,7 @@ pub(super) fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) 
             if i == group.joints.start {
                 motion = motion.map(|v| group.of_parent(v));
             }
-            let [wx, wy, wz] = motion.velocity.0;
-            let across = |rate: Expr<'g>, last| Vec3([wy * rate, -(wx * rate), last]);
-            match joint.kind {
-                JointKind::Revolute => {
-                    motion.angular_acceleration =
-                        motion.angular_acceleration + across(qd[i], qdd[i]);
-                    motion.velocity = Vec3([wx, wy, wz + qd[i]]);
-                }
-                JointKind::Prismatic => {
-                    let coriolis = across(qd[i].of(2.0) * qd[i], qdd[i]);
-                    motion.acceleration = motion.acceleration + coriolis;
-                }
-            }
+            motion = motion.moved_by(joint.kind, qd[i], qdd[i]);
             motion
                 .velocity
                 .labelled("omega", |axis| format!("w{axis}_{}", i + 1));

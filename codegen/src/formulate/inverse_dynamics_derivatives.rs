@@ -27,7 +27,7 @@ use super::friction::friction_slope;
 use super::inverse_dynamics::{Motion, Wrench, inward, outward, unloaded};
 use super::kinematics::Twist;
 use super::mass_matrix::{Momentum, Station, stations};
-use super::mass_matrix_derivatives::{momentum_of, twists_at_joints, unit_twist};
+use super::mass_matrix_derivatives::{momentum_of, twists_at_joints};
 use super::vector::Vec3;
 use crate::graph::Expr;
 
@@ -74,7 +74,7 @@ pub(crate) fn inverse_dynamics_derivatives<'g>(
     let friction_slopes = friction_slope(chain, qd);
     for (j, i) in (0..n).flat_map(|i| (0..=i).map(move |j| (j, i))) {
         let (drive, response) = (&drives[j], &responses[j][i - j]);
-        let axis = unit_twist(chain, chain.joints[j].kind);
+        let axis = Twist::unit(chain, chain.joints[j].kind);
         let rate = drive.twice_rate.map(|v| v.scale(half));
         let (momentum, couple) = (&response.momentum, response.couple);
         by_position[i][j] = power(&drive.acceleration, momentum) + rate.angular.dot(couple);
@@ -179,7 +179,7 @@ impl<'g> Response<'g> {
         wrench: &Wrench<'g>,
         drive: &Drive<'g>,
     ) -> Self {
-        let axis = unit_twist(chain, kind);
+        let axis = Twist::unit(chain, kind);
         let half = chain.graph.constant(0.5);
         let rate = drive.twice_rate.map(|v| v.scale(half));
         let turned = Momentum {

@@ -17,6 +17,15 @@ pub struct Twist<'g> {
 }
 
 impl<'g> Twist<'g> {
+    /// Of a joint at unit speed, at its own origin, in axes whose z is its axis.
+    pub fn unit(chain: &Chain<'g>, kind: JointKind) -> Self {
+        let (linear, angular) = match kind {
+            JointKind::Revolute => (chain.zero(), chain.axis()),
+            JointKind::Prismatic => (chain.axis(), chain.zero()),
+        };
+        Self { linear, angular }
+    }
+
     /// The same to both parts.
     pub fn map(self, f: impl Fn(Vec3<'g>) -> Vec3<'g>) -> Self {
         Self {

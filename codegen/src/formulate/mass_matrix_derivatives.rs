@@ -74,24 +74,10 @@ pub(super) fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
                 twist.angular.labelled("twist", place("w"));
             }
             all.push(twists.clone());
-            twists.push(unit_twist(chain, joint.kind));
+            twists.push(Twist::unit(chain, joint.kind));
         }
     }
     all
-}
-
-/// The unit twist of a joint of this kind, at its origin, in its group's axes.
-pub(super) fn unit_twist<'g>(chain: &Chain<'g>, kind: JointKind) -> Twist<'g> {
-    match kind {
-        JointKind::Revolute => Twist {
-            linear: chain.zero(),
-            angular: chain.axis(),
-        },
-        JointKind::Prismatic => Twist {
-            linear: chain.axis(),
-            angular: chain.zero(),
-        },
-    }
 }
 
 /// (s × s_i) · F, where s_i is the unit twist of a joint of this kind along z.

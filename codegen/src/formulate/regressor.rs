@@ -12,6 +12,7 @@
 use ulna::{JointKind, Parameter};
 
 use super::chain::Chain;
+use super::inverse_dynamics::{Motion, times};
 use super::kinematics::Twist;
 use super::vector::{Turn, Vec3};
 use crate::graph::{Expr, Input};
@@ -54,20 +55,18 @@ pub(crate) fn regressor_columns<'g>(chain: &Chain<'g>, asked: Columns) -> Vec<Ve
     let n = chain.joint_count();
     let zero = chain.graph.constant(0.0);
     let mut blocks = Vec::new();
-    let mut motion = Motion {
-        velocity: chain.zero(),
-        angular_acceleration: chain.zero(),
-        acceleration: -chain.gravity,
-    };
+    let mut motion = Motion::of_base(chain);
     let mut twists: Vec<Twist<'g>> = Vec::new();
     let mut before: Vec<Row<'g>> = Vec::new();
     for i in 0..n {
         let step = Step::of(chain, i);
-        motion = motion.carried(&step, chain, i);
+        let (qd, qdd) = (Input::Qd(i), Input::Qdd(i));
+        let [qd, qdd] = [qd, qdd].map(|input| chain.graph.input(input));
+        motion = step.motion(motion).moved_by(chain.rows[i].kind, qd, qdd);
         for twist in &mut twists {
             *twist = step.twist(*twist);
         }
-        twists.push(own_twist(chain, i));
+        twists.push(Twist::unit(chain, chain.rows[i].kind));
         let wrenches = Wrenches::of(&motion);
         let mut rows: Vec<Row<'g>> = twists.iter().map(|twist| wrenches.power(twist)).collect();
         for (row, before) in rows.iter_mut().zip(&before) {
@@ -84,19 +83,6 @@ pub(crate) fn regressor_columns<'g>(chain: &Chain<'g>, asked: Columns) -> Vec<Ve
         before = rows;
     }
     blocks
-}
-
-fn own_twist<'g>(chain: &Chain<'g>, i: usize) -> Twist<'g> {
-    match chain.joints[i].kind {
-        JointKind::Revolute => Twist {
-            linear: chain.zero(),
-            angular: chain.axis(),
-        },
-        JointKind::Prismatic => Twist {
-            linear: chain.axis(),
-            angular: chain.zero(),
-        },
-    }
 }
 
 /// From the frame of a link to that of the next.
@@ -132,9 +118,14 @@ impl<'g> Step<'g> {
         }
     }
 
-    /// A vector of the axes before, in the axes after.
-    fn vector(&self, v: Vec3<'g>) -> Vec3<'g> {
-        v.turn_x(self.alpha.inverse()).turn_z(self.turn.inverse())
+    /// A motion at the origin before, at the one after.
+    fn motion(&self, motion: Motion<'g>) -> Motion<'g> {
+        let acceleration = motion.acceleration + times(&motion.lambda(), self.offset);
+        let motion = Motion {
+            acceleration,
+            ..motion
+        };
+        motion.map(|v| v.turn_x(self.alpha.inverse()).turn_z(self.turn.inverse()))
     }
 
     /// A twist at the origin before, at the one after: moved along x, turned about it, moved along z, turned about it.
@@ -170,55 +161,6 @@ impl<'g> Step<'g> {
                 + a * (at(Parameter::Mx) + a * (at(Parameter::Iyy) + at(Parameter::Izz)))
                 + d * (along + moved);
         }
-    }
-}
-
-/// Motion of a link, in its own frame.
-#[derive(Clone, Copy)]
-struct Motion<'g> {
-    velocity: Vec3<'g>,
-    angular_acceleration: Vec3<'g>,
-    /// Of the origin, gravity taken off.
-    acceleration: Vec3<'g>,
-}
-
-impl<'g> Motion<'g> {
-    /// The motion of link i, if this is the one of the link before.
-    fn carried(self, step: &Step<'g>, chain: &Chain<'g>, i: usize) -> Self {
-        let (qd, qdd) = (
-            chain.graph.input(Input::Qd(i)),
-            chain.graph.input(Input::Qdd(i)),
-        );
-        let lambda = self.lambda();
-        let turned = Vec3(lambda.map(|row| row.dot(step.offset)));
-        let Vec3([wx, wy, wz]) = step.vector(self.velocity);
-        let mut carried = Self {
-            velocity: Vec3([wx, wy, wz]),
-            angular_acceleration: step.vector(self.angular_acceleration),
-            acceleration: step.vector(self.acceleration + turned),
-        };
-        let across = |rate: Expr<'g>| Vec3([wy * rate, -(wx * rate), qdd]);
-        match chain.joints[i].kind {
-            JointKind::Revolute => {
-                carried.angular_acceleration = carried.angular_acceleration + across(qd);
-                carried.velocity = Vec3([wx, wy, wz + qd]);
-            }
-            JointKind::Prismatic => {
-                carried.acceleration = carried.acceleration + across(qd.of(2.0) * qd);
-            }
-        }
-        carried
-    }
-
-    /// Λ, by rows.
-    fn lambda(&self) -> [Vec3<'g>; 3] {
-        let ([x, y, z], [ax, ay, az]) = (self.velocity.0, self.angular_acceleration.0);
-        let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
-        [
-            Vec3([-(yy + zz), xy - az, xz + ay]),
-            Vec3([xy + az, -(xx + zz), yz - ax]),
-            Vec3([xz - ay, yz + ax, -(xx + yy)]),
-        ]
     }
 }
 

@@ -11,7 +11,7 @@ use super::{Judge, Verdict, rounded};
 use crate::JointKind;
 use crate::arm::Parameter;
 use crate::arm::coordinates::coordinates;
-use crate::proof::{relative, worse};
+use crate::proof::{State, relative, worse};
 
 type Regressor<const N: usize> = [SMatrix<f64, N, 10>; N];
 
@@ -25,30 +25,23 @@ impl<const N: usize> Judge<'_, N> {
         self.columns(&found, &expected, |_, _| true)
     }
 
-    /// A column that is kept is Y's, and the same columns are kept.
+    /// The same columns, as far as doubles can tell which they are.
     ///
-    /// Which are kept follows from the arm alone. Of an arm that is special but for so little that rounding decides which columns
-    /// depend on each other, only those are compared that are kept.
+    /// That follows from the arm alone. Of an arm that is special but for so little that rounding decides which columns depend
+    /// on each other, other ones may be kept; those are Y's.
     pub(in crate::proof) fn base_regressor(
         &self,
         found: Regressor<N>,
         expected: impl FnOnce() -> Regressor<N>,
     ) -> Verdict {
-        let expected = expected();
-        let (q, qd, qdd) = (&self.state.q, &self.state.qd, &self.state.qdd);
+        let (error, allowed) = self.columns(&found, &expected(), |_, _| true);
+        if error <= allowed || self.chain.base_columns().are_clear {
+            return (error, allowed);
+        }
+        let State { q, qd, qdd, .. } = self.state;
         let all = self.reference.regressor(q, qd, qdd);
-        let kept = |regressor: &Regressor<N>, i: usize, column: usize| {
-            regressor[i].column(column).iter().any(|x| *x != 0.0)
-        };
-        let (error, allowed) = self.columns(&found, &all, |i, column| kept(&found, i, column));
-        let mut places = (0..N).flat_map(|i| (0..Parameter::COUNT).map(move |column| (i, column)));
-        let same = places.all(|(i, column)| kept(&found, i, column) == kept(&expected, i, column));
-        let others = if same || !self.chain.base_columns().are_clear {
-            0.0
-        } else {
-            f64::INFINITY
-        };
-        (worse(error, others), allowed)
+        let is_kept = |i: usize, column: usize| found[i].column(column).iter().any(|x| *x != 0.0);
+        self.columns(&found, &all, is_kept)
     }
 
     /// The largest error of an entry among some columns.
