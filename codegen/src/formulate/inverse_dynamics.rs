@@ -76,6 +76,10 @@ pub(crate) fn inverse_dynamics_with_load<'g>(
             let (own_force, own_moment) = wrench(&body, &motions[i]);
             own_force.labelled("own_wrench", |axis| format!("f{axis}_own_{}", i + 1));
             own_moment.labelled("own_wrench", |axis| format!("n{axis}_own_{}", i + 1));
+            // Every product of Λ is there by now: naming them must not be what makes them.
+            for (row, axis) in motions[i].lambda().iter().zip(["x", "y", "z"]) {
+                row.labelled("lam", |other| format!("lam_{axis}{other}_{}", i + 1));
+            }
             force = force + own_force;
             moment = moment + own_moment;
             // The torque itself is for the caller to name.
@@ -144,9 +148,6 @@ fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Moti
                 .labelled("omega", |axis| format!("w{axis}_{}", i + 1));
             motion.angular_acceleration.named("al", &[i]);
             motion.acceleration.named("a", &[i]);
-            for (row, axis) in motion.lambda().iter().zip(["x", "y", "z"]) {
-                row.labelled("lam", |other| format!("lam_{axis}{other}_{}", i + 1));
-            }
             motions.push(motion);
         }
     }
