@@ -10,7 +10,7 @@ use crate::formulate::chain::Chain;
 use crate::formulate::{Choices, Chosen, IN_ORDER, depends_on, task};
 use crate::graph::Graph;
 use crate::schedule::{Program, schedule};
-use crate::{MethodProgram, compile_method};
+use crate::{MethodProgram, compile_on};
 
 const GRADIENT: Method = Method::DynamicManipulabilityGradient;
 
@@ -112,7 +112,12 @@ pub(super) fn conditioned(
     }
     let gradient = match MethodProgram::of(methods, GRADIENT) {
         Some(found) => Cow::Borrowed(&found.program),
-        None => Cow::Owned(compile_method(model, GRADIENT, choices)),
+        None => Cow::Owned(compile_on(
+            &Graph::without_labels(),
+            model,
+            GRADIENT,
+            choices,
+        )),
     };
     // W's rows are asked for in world axes, as the table names them.
     let as_listed = Choices {
@@ -136,9 +141,12 @@ fn cheapest_that_is_exact(
 ) -> Option<Choices> {
     let mut most_exact: Option<(f64, Choices)> = None;
     for way in ways {
-        let compiled = way
-            .into_iter()
-            .map(|choices| (choices, compile_method(model, method, choices)));
+        let compiled = way.into_iter().map(|choices| {
+            (
+                choices,
+                compile_on(&Graph::without_labels(), model, method, choices),
+            )
+        });
         let mut candidates: Vec<(Choices, Program)> = compiled.collect();
         // A stable sort: of programs of one length the first is kept.
         candidates.sort_by_key(|(_, program)| program.steps.len());

@@ -87,6 +87,8 @@ pub struct Graph {
     places: RefCell<HashMap<Node, Id>>,
     angles: RefCell<Vec<AngleSum>>,
     labels: RefCell<HashMap<Id, Label>>,
+    /// Whether names are kept.
+    has_labels: bool,
 }
 
 impl fmt::Debug for Graph {
@@ -98,6 +100,14 @@ impl fmt::Debug for Graph {
 impl Graph {
     /// An empty graph.
     pub fn new() -> Self {
+        Self {
+            has_labels: true,
+            ..Self::default()
+        }
+    }
+
+    /// An empty graph whose expressions have no names: for programs that are compared, and not read.
+    pub(crate) fn without_labels() -> Self {
         Self::default()
     }
 
@@ -223,7 +233,7 @@ impl<'g> Expr<'g> {
 
     /// As [`named`](Self::named), by any name: an identifier in ASCII.
     pub fn labelled(self, family: &'static str, text: impl FnOnce() -> String) -> Self {
-        if !matches!(self.graph.node(self.id), Node::Apply(..)) {
+        if !self.graph.has_labels || !matches!(self.graph.node(self.id), Node::Apply(..)) {
             return self;
         }
         let mut labels = self.graph.labels.borrow_mut();

@@ -166,7 +166,10 @@ fn warnings_of(states: &TestStates) -> Vec<String> {
 }
 
 fn compile_method(model: &Model, method: Method, choices: Choices) -> Program {
-    let graph = Graph::new();
-    let chain = Chain::new(&graph, model);
-    schedule::schedule(&graph, &formulate::formulate(method, &chain, choices))
+    compile_on(&Graph::new(), model, method, choices)
+}
+
+fn compile_on(graph: &Graph, model: &Model, method: Method, choices: Choices) -> Program {
+    let chain = Chain::new(graph, model);
+    schedule::schedule(graph, &formulate::formulate(method, &chain, choices))
 }

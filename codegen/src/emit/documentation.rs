@@ -64,9 +64,8 @@ fn legend<'p>(
         let places = ["[i - 1]", "[j - 1]", "[k - 1]"];
         let places = places.iter().take(output.shape.len());
         Some(format!(
-            " - `{family}{}`: the result{}{}",
+            " - `{family}{}`: `result{}`",
             indices.copied().collect::<String>(),
-            if output.shape.is_empty() { "" } else { "'s " },
             places.copied().collect::<String>(),
         ))
     })

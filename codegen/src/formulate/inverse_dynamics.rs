@@ -139,6 +139,10 @@ pub(super) fn inward<'g>(
                 .labelled("own_wrench", |axis| format!("f{axis}_own_{}", i + 1));
             own.moment
                 .labelled("own_wrench", |axis| format!("n{axis}_own_{}", i + 1));
+            // Every product of Λ is there by now: naming them must not be what makes them.
+            for (row, axis) in motions[i].lambda().iter().zip(["x", "y", "z"]) {
+                row.labelled("lam", |other| format!("lam_{axis}{other}_{}", i + 1));
+            }
             force = force + own.force;
             moment = moment + own.moment;
             // What the joint itself feels is for the caller to name.
@@ -195,9 +199,6 @@ pub(super) fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) 
                 .labelled("omega", |axis| format!("w{axis}_{}", i + 1));
             motion.angular_acceleration.named("al", &[i]);
             motion.acceleration.named("a", &[i]);
-            for (row, axis) in motion.lambda().iter().zip(["x", "y", "z"]) {
-                row.labelled("lam", |other| format!("lam_{axis}{other}_{}", i + 1));
-            }
             motions.push(motion);
         }
     }

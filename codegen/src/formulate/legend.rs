@@ -121,7 +121,7 @@ const LEGEND: &[(&str, &str, &str)] = &[
     (
         "lam",
         "lam_xy_i ...",
-        "[α]× + [ω]×[ω]× of link i: what its turning gives a vector fixed in it",
+        "`[α]× + [ω]×[ω]×` of link i: what its turning gives a vector fixed in it",
     ),
     (
         "own_wrench",
