@@ -69,6 +69,7 @@ pub mod internal;
 mod kernels;
 pub mod proof;
 
+pub use arm::method_set::MethodSet;
 pub use arm::methods::{Argument, Method};
 pub use arm::{
     Angle, Arm, Friction, Joint, JointKind, Limits, Link, Motor, Payload, PayloadError, Placement,

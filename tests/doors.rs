@@ -113,6 +113,115 @@ fn a_generated_arm_links_without_the_standard_library() {
     assert!(build.succeeded, "{}", build.stderr);
 }
 
+/// Three methods generated and the others by the textbook, beside the same arm in full.
+const FEW: &str = r#"
+use ulna::nalgebra::Vector2;
+use ulna::{Arm, ArmBatch, Method, MethodSet, Unrolled};
+
+fn main() {
+    let (few, all) = (Planar2r, Planar2rInFull);
+    let chosen = [Method::MassMatrix, Method::InverseDynamics, Method::JacobianDerivatives];
+    assert_eq!(Planar2r::GENERATED, MethodSet::of(&chosen));
+    assert_eq!(Planar2rInFull::GENERATED, MethodSet::ALL);
+    let states = ulna::proof::states(&Planar2r::CHAIN).take(50);
+    let report = ulna::proof::compare_with(&few, &all, &Planar2r::CHAIN, states);
+    assert!(report.passes(), "{report}");
+
+    // What is generated gives the same bits; what is not, the textbook's.
+    let q: Vec<Vector2<f64>> = (0..21).map(|i| Vector2::new(0.1 * f64::from(i), 1.2)).collect();
+    for q in &q {
+        assert_eq!(few.mass_matrix(q), all.mass_matrix(q));
+        assert_eq!(few.inverse_dynamics(q, q, q), all.inverse_dynamics(q, q, q));
+        assert_eq!(few.gravity_torque(q), Planar2r::CHAIN.gravity_torque(q));
+        assert_eq!(few.forward_dynamics(q, q, q), Planar2r::CHAIN.forward_dynamics(q, q, q));
+    }
+    let mut gravity = vec![Vector2::zeros(); q.len()];
+    few.gravity_torque_batch(&q, &mut gravity).unwrap();
+    assert!(q.iter().zip(&gravity).all(|(q, g)| *g == few.gravity_torque(q)));
+    let mut masses = vec![Default::default(); q.len()];
+    few.mass_matrix_batch(&q, &mut masses).unwrap();
+    assert!(q.iter().zip(&masses).all(|(q, m)| *m == few.mass_matrix(q)));
+
+    // A kernel that is not there says so.
+    let called = std::panic::catch_unwind(|| Planar2r.gravity_torque_kernel(&[0.0, 0.0]));
+    let said = called.unwrap_err();
+    let said = said.downcast_ref::<String>().unwrap();
+    assert!(said.contains("no kernel of `gravity_torque` was generated"), "{said}");
+    println!("ok");
+}
+"#;
+
+fn of_few_methods(name: &str, example: &str) -> Crate {
+    let user = Crate::of_user(name, &format!("examples/{example}"));
+    let table = fs::read_to_string(root().join(TABLE)).unwrap();
+    user.write("arms/planar_2r.toml", &table);
+    user.write(
+        "arms/planar_2r_in_full.toml",
+        &table.replace("\"planar_2r\"", "\"planar_2r_in_full\""),
+    );
+    user
+}
+
+#[test]
+fn a_choice_of_methods_by_the_macro() {
+    let user = of_few_methods("macro_methods", "macro");
+    let calls = "ulna_macros::arm!(\"arms/planar_2r_in_full.toml\");\n\
+        ulna_macros::arm!(\"arms/planar_2r.toml\", methods = [mass_matrix, inverse_dynamics, jacobian_derivatives]);\n";
+    user.write("src/main.rs", &format!("{calls}{FEW}"));
+    let build = user.build();
+    assert!(build.succeeded, "{}", build.stderr);
+    assert_eq!(user.run(), "ok\n");
+}
+
+#[test]
+fn a_choice_of_methods_by_the_build_script() {
+    let user = of_few_methods("build_script_methods", "build_script");
+    user.write(
+        "build.rs",
+        "use ulna_codegen::{Generator, Method, compile_arms};\n\n\
+         fn main() -> Result<(), ulna_codegen::Error> {\n\
+             compile_arms(&[\"arms/planar_2r_in_full.toml\"])?;\n\
+             let chosen = [Method::MassMatrix, Method::InverseDynamics, Method::JacobianDerivatives];\n\
+             Generator::new().methods(&chosen).compile_arms(&[\"arms/planar_2r.toml\"])\n\
+         }\n",
+    );
+    let included = ["planar_2r", "planar_2r_in_full"]
+        .map(|arm| format!("include!(concat!(env!(\"OUT_DIR\"), \"/{arm}.rs\"));\n"));
+    user.write("src/main.rs", &format!("{}{FEW}", included.concat()));
+    let build = user.build();
+    assert!(build.succeeded, "{}", build.stderr);
+    assert_eq!(user.run(), "ok\n");
+}
+
+#[test]
+fn what_is_no_method_stops_the_macro_with_what_there_is() {
+    let user = of_few_methods("macro_methods_misuse", "macro");
+    let calls = [
+        "methods = [mass_matirx, torque]",
+        "method = [mass_matrix]",
+        "methods = mass_matrix",
+    ];
+    let calls = calls.map(|rest| format!("ulna_macros::arm!(\"arms/planar_2r.toml\", {rest});\n"));
+    user.write(
+        "src/main.rs",
+        &format!("{}fn main() {{}}\n", calls.concat()),
+    );
+    let build = user.build();
+    assert!(!build.succeeded);
+    let stderr = build.stderr;
+    assert!(
+        stderr.contains("unknown method `mass_matirx`: did you mean `mass_matrix`?"),
+        "{stderr}"
+    );
+    assert!(stderr.contains("unknown method `torque`"), "{stderr}");
+    assert!(
+        stderr.contains("the methods are forward_kinematics, "),
+        "{stderr}"
+    );
+    assert!(stderr.contains("expected `methods = [...]`"), "{stderr}");
+    assert!(stderr.contains("expected square brackets"), "{stderr}");
+}
+
 #[test]
 fn a_bad_table_stops_the_macro_at_its_path() {
     let user = Crate::of_user("macro_errors", "examples/macro");

@@ -8,9 +8,11 @@ use clap::Args;
 use comfy_table::presets;
 use comfy_table::{CellAlignment, Table};
 use serde_json::{Map, Value, json};
+use ulna::Method;
 use ulna_codegen::{Counts, Generated};
 use ulna_table::Model;
 
+use crate::methods::Methods;
 use crate::{Verdict, console};
 
 /// Count the operations of an arm's code
@@ -21,6 +23,8 @@ use crate::{Verdict, console};
 pub(crate) struct Arguments {
     /// The arm's table (TOML)
     table: PathBuf,
+    #[command(flatten)]
+    methods: Methods,
     /// Print JSON: the operations of each method of the trait Arm
     #[arg(long)]
     json: bool,
@@ -29,7 +33,8 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let model = console::load(&arguments.table)?;
     let start = Instant::now();
-    let generated = ulna_codegen::generate(&model, &arguments.table.display().to_string());
+    let generator = arguments.methods.generator();
+    let generated = generator.generate(&model, &arguments.table.display().to_string());
     console::warnings(&arguments.table, generated.warnings());
     let lines = generated.source().lines().count();
     let seconds = start.elapsed().as_secs_f64();
@@ -42,6 +47,15 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
             model.name()
         )?;
         writeln!(out, "{}", table(&generated))?;
+        let absent: Vec<&str> = arguments
+            .methods
+            .absent()
+            .iter()
+            .map(Method::name)
+            .collect();
+        if !absent.is_empty() {
+            writeln!(out, "by the textbook formulas: {}", absent.join(", "))?;
+        }
     }
     Ok(Verdict::Pass)
 }

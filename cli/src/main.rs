@@ -15,6 +15,7 @@ mod generate;
 mod help;
 mod joints;
 mod man;
+mod methods;
 mod numbers;
 mod output;
 mod reproduce;

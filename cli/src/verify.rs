@@ -4,13 +4,14 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use ulna::SerialChain;
 use ulna::proof::{self, Report, differences};
-use ulna_codegen::Interpreter;
+use ulna::{Method, SerialChain};
+use ulna_codegen::{Generator, Interpreter};
 use ulna_table::JointCountError;
 use ulna_table::Model;
 
 use crate::joints::{ForChain, with_chain};
+use crate::methods::Methods;
 use crate::{Verdict, console};
 
 /// Compare an arm's emitted program, and the generic path, with a computation of twice as many digits, and with finite differences
@@ -19,6 +20,8 @@ use crate::{Verdict, console};
 pub(crate) struct Arguments {
     /// The arm's table (TOML)
     table: PathBuf,
+    #[command(flatten)]
+    methods: Methods,
     /// Random configurations, the same ones every time
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..))]
     samples: u32,
@@ -28,6 +31,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     let model = console::load(&arguments.table)?;
     let verify = Verify {
         model: &model,
+        generator: arguments.methods.generator(),
         samples: arguments.samples as usize,
     };
     let Found {
@@ -49,12 +53,24 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         out,
         "the generic path against the emitted formulas in 106 bits\n{textbook}"
     )?;
-    writeln!(
-        out,
-        "the emitted program against central differences of itself"
-    )?;
+    if !differences.deviations().is_empty() {
+        writeln!(
+            out,
+            "the emitted program against central differences of itself"
+        )?;
+    }
     for deviation in differences.deviations() {
         writeln!(out, "{deviation}")?;
+    }
+    let absent: Vec<&str> = arguments
+        .methods
+        .absent()
+        .iter()
+        .map(Method::name)
+        .collect();
+    if !absent.is_empty() {
+        let absent = absent.join(", ");
+        writeln!(out, "\nnot generated, and not compared: {absent}")?;
     }
     let mut verdict = Verdict::Pass;
     let mut wrong = |what: &str| {
@@ -75,6 +91,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
 
 struct Verify<'m> {
     model: &'m Model,
+    generator: Generator,
     samples: usize,
 }
 
@@ -88,7 +105,8 @@ impl ForChain for Verify<'_> {
     type Output = Result<Found, JointCountError>;
 
     fn run<const N: usize>(self, chain: &SerialChain<N>) -> Self::Output {
-        let mut emitted: Interpreter<N> = Interpreter::new(self.model)?;
+        let mut emitted: Interpreter<N> =
+            Interpreter::of(self.model, self.generator.compile(self.model))?;
         let mut chain = *chain;
         if self.model.has_payload() {
             let payload = proof::payload(&chain);
@@ -96,11 +114,12 @@ impl ForChain for Verify<'_> {
             chain = chain.carrying(&payload);
         }
         let (chain, exact) = (&chain, emitted.exact());
+        let generated = self.generator.chosen();
         let states = || proof::states(chain).take(self.samples);
         Ok(Found {
-            emitted: proof::compare_with(&emitted, &exact, chain, states()),
-            textbook: proof::compare_with(chain, &exact, chain, states()),
-            differences: differences::compare(&emitted, chain, states()),
+            emitted: proof::compare_with(&emitted, &exact, chain, states()).of(generated),
+            textbook: proof::compare_with(chain, &exact, chain, states()).of(generated),
+            differences: differences::compare(&emitted, chain, states()).of(generated),
         })
     }
 }

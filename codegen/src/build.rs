@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use ulna_table::{Model, TableErrors};
 
-use crate::generate;
+use crate::Generator;
 
 /// Why a build script could not write its arms.
 #[derive(thiserror::Error)]
@@ -71,13 +71,21 @@ impl fmt::Debug for Error {
 /// # Errors
 /// All errors of all tables at once, for `main` to return: cargo shows them and stops. Nothing is written then.
 pub fn compile_arms(tables: &[impl AsRef<Path>]) -> Result<(), Error> {
+    Generator::new().compile_arms(tables)
+}
+
+/// [`compile_arms`] by `generator`.
+pub(crate) fn compile_arms_with(
+    generator: &Generator,
+    tables: &[impl AsRef<Path>],
+) -> Result<(), Error> {
     for table in tables {
         println!(
             "cargo::rerun-if-changed={}",
             watched(table.as_ref()).display()
         );
     }
-    compile_into_out_dir(tables).map(drop)
+    compile_into_out_dir(generator, tables).map(drop)
 }
 
 /// What cargo is told to watch for `table`: its folder if there is a line break in its name, because what follows one
@@ -99,9 +107,13 @@ fn watched(table: &Path) -> &Path {
 /// # Errors
 /// As [`compile_arms`], and if the folder cannot be read.
 pub fn compile_folder(folder: impl AsRef<Path>) -> Result<(), Error> {
-    let folder = folder.as_ref();
+    Generator::new().compile_folder(folder)
+}
+
+/// [`compile_folder`] by `generator`.
+pub(crate) fn compile_folder_with(generator: &Generator, folder: &Path) -> Result<(), Error> {
     println!("cargo::rerun-if-changed={}", watched(folder).display());
-    let models = compile_into_out_dir(&tables_of(folder)?)?;
+    let models = compile_into_out_dir(generator, &tables_of(folder)?)?;
     write_to_out_dir("arms", &list(&models))
 }
 
@@ -141,10 +153,13 @@ fn list(models: &[Model]) -> String {
     )
 }
 
-fn compile_into_out_dir(tables: &[impl AsRef<Path>]) -> Result<Vec<Model>, Error> {
+fn compile_into_out_dir(
+    generator: &Generator,
+    tables: &[impl AsRef<Path>],
+) -> Result<Vec<Model>, Error> {
     let models = load_all(tables)?;
     for (path, model) in &models {
-        let generated = generate(model, &path.display().to_string());
+        let generated = generator.generate(model, &path.display().to_string());
         for sentence in generated.warnings() {
             warn(&format!("{}: {sentence}", path.display()));
         }

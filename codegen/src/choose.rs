@@ -1,11 +1,13 @@
 //! Among the ways to write an arm's formulas down: the cheapest that is exact enough.
 
-use ulna::Method;
+use std::borrow::Cow;
+
+use ulna::{Method, MethodSet};
 use ulna_table::Model;
 
 use crate::accuracy::{Conditioned, TestStates};
 use crate::formulate::chain::Chain;
-use crate::formulate::{Choices, IN_ORDER, task};
+use crate::formulate::{Choices, Chosen, IN_ORDER, depends_on, task};
 use crate::graph::Graph;
 use crate::schedule::{Program, schedule};
 use crate::{MethodProgram, compile_method};
@@ -19,16 +21,39 @@ const EXACT: f64 = 1e-10;
 /// H's rows are made orthogonal.
 const WAYS: [(bool, usize); 4] = [(false, 2), (false, 3), (true, 2), (true, 3)];
 
-/// Tries the Jacobian in every frame, for J itself and for w_D, and for w_D its rows in two orders.
-pub(super) fn choose(model: &Model, states: &TestStates) -> Choices {
+/// Tries the Jacobian in every frame, for J itself and for w_D, and for w_D its rows in two orders;
+/// what none of `methods` depends on is left as it is.
+pub(super) fn choose(model: &Model, states: &TestStates, methods: MethodSet) -> Choices {
+    let is_needed = |chosen| {
+        methods
+            .iter()
+            .any(|method| depends_on(method).contains(&chosen))
+    };
     let none = Choices {
         singular: states.singular_everywhere,
         ..Choices::default()
     };
-    let frames = 0..=Chain::new(&Graph::new(), model).groups.len();
-    let worlds = frames.clone().map(|world| Choices { world, ..none });
+    let world = is_needed(Chosen::World).then(|| of_jacobian(model, states, none));
+    let task = is_needed(Chosen::Task).then(|| of_task(model, states, none));
+    Choices {
+        world: world.unwrap_or(none).world,
+        ..task.unwrap_or(none)
+    }
+}
+
+/// The frames that J may be built in.
+fn frames(model: &Model) -> impl Iterator<Item = usize> + Clone {
+    0..=Chain::new(&Graph::new(), model).groups.len()
+}
+
+fn of_jacobian(model: &Model, states: &TestStates, none: Choices) -> Choices {
+    let worlds = frames(model).map(|world| Choices { world, ..none });
     let worlds = [worlds.collect()].into_iter();
-    let world = cheapest_that_is_exact(model, Method::GeometricJacobian, worlds, states);
+    cheapest_that_is_exact(model, Method::GeometricJacobian, worlds, states).unwrap_or(none)
+}
+
+fn of_task(model: &Model, states: &TestStates, none: Choices) -> Choices {
+    let frames = frames(model);
     let ways = WAYS.into_iter().map(|(articulated, passes)| {
         let in_frame = |task: usize| {
             let as_listed = Choices {
@@ -45,11 +70,7 @@ pub(super) fn choose(model: &Model, states: &TestStates) -> Choices {
         all.dedup();
         all
     });
-    let task = cheapest_that_is_exact(model, GRADIENT, ways, states).unwrap_or(none);
-    Choices {
-        world: world.unwrap_or(none).world,
-        ..task
-    }
+    cheapest_that_is_exact(model, GRADIENT, ways, states).unwrap_or(none)
 }
 
 /// The order of the task's rows in which H's are longest first.
@@ -69,10 +90,14 @@ pub(super) fn conditioned(
     choices: Choices,
     states: &TestStates,
 ) -> Option<Conditioned> {
-    let gradient = MethodProgram::of(methods, GRADIENT)?;
-    if choices.singular {
+    let has_manipulability = |method: &MethodProgram| method.method.zero_where_singular().is_some();
+    if choices.singular || !methods.iter().any(has_manipulability) {
         return None;
     }
+    let gradient = match MethodProgram::of(methods, GRADIENT) {
+        Some(found) => Cow::Borrowed(&found.program),
+        None => Cow::Owned(compile_method(model, GRADIENT, choices)),
+    };
     // W's rows are asked for in world axes, as the table names them.
     let as_listed = Choices {
         task: 0,
@@ -82,7 +107,7 @@ pub(super) fn conditioned(
     let graph = Graph::new();
     let outputs = task::sensitivity(&Chain::new(&graph, model), as_listed);
     let sensitivity = schedule(&graph, &outputs);
-    states.conditioned(model, &gradient.program, &sensitivity)
+    states.conditioned(model, &gradient, &sensitivity)
 }
 
 /// Of the first of `ways` in which a program's error is small enough, the choices of the shortest such program;

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use crate::graph::{Expr, Graph, Id, Input, Node};
+use crate::label::{Label, subscripts};
 
 /// The nodes that `outputs` need, arguments first.
 pub(crate) fn reachable(graph: &Graph, outputs: impl IntoIterator<Item = Id>) -> Vec<Id> {
@@ -48,6 +49,10 @@ pub fn reverse<'g>(
         if adjoint.is_zero() {
             continue;
         }
+        if let Some(label) = graph.label(id) {
+            let Label { family, text } = label.of_adjoint();
+            adjoint.labelled(family, || text);
+        }
         match graph.node(id) {
             Node::Constant(_) => {}
             Node::Input(Input::Q(i)) => gradient[i] = gradient[i] + adjoint,
@@ -79,7 +84,9 @@ fn sum_over_angles<'g>(
     for pair in angles.chunk_by(|a, b| a.0 == b.0) {
         let zero = graph.constant(0.0);
         let total = pair.iter().fold(zero, |sum, (_, adjoint)| sum + *adjoint);
-        for joint in graph.angle(pair[0].0).joints {
+        let joints = graph.angle(pair[0].0).joints;
+        total.labelled("bar", || format!("angle{}_bar", subscripts(&joints)));
+        for joint in joints {
             gradient[joint] = gradient[joint] + total;
         }
     }

@@ -5,11 +5,13 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::fmt;
 
 use ulna::Real;
 
 use crate::double_double::DoubleDouble;
+use crate::label::{Label, subscripts};
 use crate::op::Op;
 
 /// A node's place in the graph. Arguments always stand before the nodes that use them.
@@ -84,6 +86,7 @@ pub struct Graph {
     nodes: RefCell<Vec<Node>>,
     places: RefCell<HashMap<Node, Id>>,
     angles: RefCell<Vec<AngleSum>>,
+    labels: RefCell<HashMap<Id, Label>>,
 }
 
 impl fmt::Debug for Graph {
@@ -141,6 +144,11 @@ impl Graph {
     /// The angle behind [`Input::Sin`] and [`Input::Cos`].
     pub fn angle(&self, index: usize) -> AngleSum {
         self.angles.borrow()[index].clone()
+    }
+
+    /// What the value at a place is called, if it has a name.
+    pub fn label(&self, id: Id) -> Option<Label> {
+        self.labels.borrow().get(&id).cloned()
     }
 
     pub(crate) fn intern(&self, node: Node) -> Expr<'_> {
@@ -203,6 +211,35 @@ impl<'g> Expr<'g> {
     /// Whether the expression is the number 0.
     pub fn is_zero(self) -> bool {
         self.value().is_some_and(|value| value == 0.0)
+    }
+
+    /// The same expression, called `family` and the indices in the generated code, counted from 1 there: `m_2_3`;
+    /// where it is minus something, that is called the same with `_neg`.
+    ///
+    /// A name changes nothing else. The first one stays; numbers and arguments have none.
+    pub fn named(self, family: &'static str, indices: &[usize]) -> Self {
+        self.labelled(family, || format!("{family}{}", subscripts(indices)))
+    }
+
+    /// As [`named`](Self::named), by any name: an identifier in ASCII.
+    pub fn labelled(self, family: &'static str, text: impl FnOnce() -> String) -> Self {
+        if !matches!(self.graph.node(self.id), Node::Apply(..)) {
+            return self;
+        }
+        let mut labels = self.graph.labels.borrow_mut();
+        if let Entry::Vacant(vacant) = labels.entry(self.id) {
+            let text = text();
+            let label = |text| Label { family, text };
+            // What stands behind a sign is as good a value.
+            if let Some(positive) = self.negated() {
+                vacant.insert(label(text.clone()));
+                let text = format!("{text}_neg");
+                labels.entry(positive.id).or_insert(label(text));
+            } else {
+                vacant.insert(label(text));
+            }
+        }
+        self
     }
 
     /// The square root.

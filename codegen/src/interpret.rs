@@ -17,6 +17,8 @@ use crate::{Compiled, MethodProgram};
 #[derive(Clone, Debug)]
 pub struct Interpreter<const N: usize> {
     chain: SerialChain<N>,
+    /// The same with its payload: for methods that are not compiled.
+    carrying: SerialChain<N>,
     compiled: Arc<Compiled>,
     arithmetic: Arithmetic,
     /// The payload's parameters. Programs of an arm that has none do not read them.
@@ -45,9 +47,19 @@ impl<const N: usize> Interpreter<N> {
     /// # Errors
     /// When the model has another number of joints than `N`.
     pub fn new(model: &Model) -> Result<Self, JointCountError> {
+        Self::of(model, crate::compile(model))
+    }
+
+    /// The arm of `model` with the programs `compiled` of it; what has none runs by the formulas of [`SerialChain`].
+    ///
+    /// # Errors
+    /// When the model has another number of joints than `N`.
+    pub fn of(model: &Model, compiled: Compiled) -> Result<Self, JointCountError> {
+        let chain = SerialChain::try_from(model)?;
         Ok(Self {
-            chain: SerialChain::try_from(model)?,
-            compiled: Arc::new(crate::compile(model)),
+            chain,
+            carrying: chain,
+            compiled: Arc::new(compiled),
             arithmetic: Arithmetic::of::<f64>(),
             payload: Payload::NONE.parameters(model.tool()).to_vec(),
         })
@@ -58,6 +70,7 @@ impl<const N: usize> Interpreter<N> {
     pub fn carrying(&self, payload: &Payload) -> Self {
         Self {
             payload: payload.parameters(&self.chain.tool).to_vec(),
+            carrying: self.chain.carrying(payload),
             ..self.clone()
         }
     }
@@ -166,6 +179,9 @@ macro_rules! define_interpreter {
 
             $(
                 fn $method(&self, $($argument: &ulna::argument_type!([N] $argument)),+) -> $output {
+                    if MethodProgram::of(&self.compiled.methods, Method::$variant).is_none() {
+                        return self.carrying.$method($($argument),+);
+                    }
                     let state = State { $($argument: *$argument,)+ ..State::default() };
                     self.run(Method::$variant, &state)
                 }

@@ -13,6 +13,7 @@
 //! # Where to go
 //!
 //! - [`compile_arms`] and [`compile_folder`]: for build scripts. The crate `ulna-macros` does it without one, the program `ulna` by hand.
+//! - [`Generator`]: all that for some methods alone.
 //! - [`generate`]: a [`Model`] in, [`Generated`] code out, as text or tokens.
 //! - [`compile`]: the [`Program`]s that code is printed from, for whoever prints them in another way.
 //! - [`Interpreter`]: an arm that runs its programs without a compiler, in `f64` or in 106 bits.
@@ -39,15 +40,17 @@ mod double_double;
 mod emit;
 mod fold;
 mod formulate;
+mod generator;
 mod graph;
 #[doc(hidden)]
 pub mod internal;
 mod interpret;
+mod label;
 mod op;
 mod schedule;
 mod sines;
 
-use ulna::Method;
+use ulna::MethodSet;
 use ulna_table::Model;
 
 pub use accuracy::Conditioned;
@@ -55,10 +58,13 @@ pub use build::{Error, compile_arms, compile_folder};
 pub use cost::Counts;
 pub use double_double::DoubleDouble;
 pub use emit::Generated;
+pub use generator::{Generator, UnknownMethod};
 pub use graph::{AngleSum, Input};
 pub use interpret::Interpreter;
+pub use label::Label;
 pub use op::Op;
 pub use schedule::{Operand, Output, Program, Size, Step};
+pub use ulna::Method;
 
 use accuracy::TestStates;
 use choose::{choose, conditioned};
@@ -77,6 +83,14 @@ pub struct MethodProgram {
     pub error: f64,
 }
 
+impl Compiled {
+    /// The methods that are generated.
+    pub fn generated(&self) -> MethodSet {
+        let methods: Vec<Method> = self.methods.iter().map(|found| found.method).collect();
+        MethodSet::of(&methods)
+    }
+}
+
 impl MethodProgram {
     fn of(methods: &[Self], method: Method) -> Option<&Self> {
         methods.iter().find(|found| found.method == method)
@@ -86,7 +100,7 @@ impl MethodProgram {
 /// An arm's methods as programs.
 #[derive(Debug)]
 pub struct Compiled {
-    /// Every method, in the order of [`Method::ALL`].
+    /// Every method that is generated, in the order of [`Method::ALL`].
     pub methods: Vec<MethodProgram>,
     /// At how many states, random ones and near-singular ones, their errors were measured.
     pub states: [usize; 2],
@@ -100,18 +114,22 @@ pub struct Compiled {
 ///
 /// Its last part stands in the header, and no more of it: the same table gives the same bytes, wherever it is read from.
 pub fn generate(model: &Model, source: &str) -> Generated {
-    let file_name = source.rsplit(std::path::is_separator).next();
-    Generated::new(model, file_name.unwrap_or(source), compile(model))
+    Generator::new().generate(model, source)
 }
 
 /// Every method of [`ulna::Arm`] as a program.
 pub fn compile(model: &Model) -> Compiled {
+    Generator::new().compile(model)
+}
+
+/// Those methods as programs.
+fn compile_methods(model: &Model, methods: MethodSet) -> Compiled {
     let states = TestStates::new(model);
-    let choices = choose(model, &states);
-    let methods = Method::ALL.iter().map(|method| {
-        let program = compile_method(model, *method, choices);
+    let choices = choose(model, &states, methods);
+    let methods = methods.iter().map(|method| {
+        let program = compile_method(model, method, choices);
         MethodProgram {
-            method: *method,
+            method,
             error: states.error(&program),
             program,
         }

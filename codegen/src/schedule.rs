@@ -9,6 +9,7 @@ use ulna::Real;
 use crate::differentiate::reachable;
 use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Id, Input, Node};
+use crate::label::{Label, subscripts};
 use crate::op::Op;
 
 /// What the rounding errors of an output are relative to.
@@ -25,7 +26,7 @@ pub enum Size {
 }
 
 /// Named results of a formulation, of some shape, in row-major order of the shape.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Output<T> {
     /// What it is called in the generated code.
     pub name: &'static str,
@@ -46,6 +47,18 @@ impl<T> Output<T> {
             elements,
             size: Size::Largest,
         }
+    }
+
+    /// The indices of the element at `index` in row-major order, outermost first.
+    pub(crate) fn places(&self, mut index: usize) -> Vec<usize> {
+        let from_last = self.shape.iter().rev().map(|length| {
+            let own = index % length;
+            index /= length;
+            own
+        });
+        let mut places: Vec<usize> = from_last.collect();
+        places.reverse();
+        places
     }
 
     /// Their errors being relative to `size`.
@@ -77,12 +90,14 @@ pub struct Step {
 }
 
 /// A straight-line program.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Program {
     /// The angles whose sines and cosines it takes.
     pub angles: Vec<AngleSum>,
     /// Its operations, in order.
     pub steps: Vec<Step>,
+    /// What the result of each operation is called, where it has a name. Names may repeat.
+    pub labels: Vec<Option<Label>>,
     /// Its results.
     pub outputs: Vec<Output<Operand>>,
 }
@@ -99,7 +114,7 @@ pub fn schedule(graph: &Graph, outputs: &[Output<Expr<'_>>]) -> Program {
         .flat_map(|output| output.elements.iter().map(|e| e.id()));
     let needed = reachable(graph, roots);
     let angles = angles_in_order(graph, &needed);
-    let mut steps = Vec::new();
+    let (mut steps, mut labels) = (Vec::new(), Vec::new());
     let mut operands: HashMap<Id, Operand> = HashMap::with_capacity(needed.len());
     for id in needed {
         let operand = match graph.node(id) {
@@ -108,12 +123,13 @@ pub fn schedule(graph: &Graph, outputs: &[Output<Expr<'_>>]) -> Program {
             Node::Apply(op, a, b) => {
                 let (a, b) = (operands[&a], operands[&b]);
                 steps.push(Step { op, a, b });
+                labels.push(graph.label(id));
                 Operand::Step(steps.len() - 1)
             }
         };
         operands.insert(id, operand);
     }
-    let outputs = outputs
+    let outputs: Vec<_> = outputs
         .iter()
         .map(|output| Output {
             name: output.name,
@@ -122,10 +138,26 @@ pub fn schedule(graph: &Graph, outputs: &[Output<Expr<'_>>]) -> Program {
             size: output.size,
         })
         .collect();
+    outputs
+        .iter()
+        .for_each(|output| name_results(output, &mut labels));
     Program {
         angles: angles.into_iter().map(|angle| graph.angle(angle)).collect(),
         steps,
+        labels,
         outputs,
+    }
+}
+
+/// Names the elements of a result that have no name, by the result's and their places in it.
+fn name_results(output: &Output<Operand>, labels: &mut [Option<Label>]) {
+    for (index, element) in output.elements.iter().enumerate() {
+        if let Operand::Step(step) = element {
+            labels[*step].get_or_insert_with(|| Label {
+                family: output.name,
+                text: format!("{}{}", output.name, subscripts(&output.places(index))),
+            });
+        }
     }
 }
 

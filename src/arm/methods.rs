@@ -35,7 +35,7 @@ macro_rules! methods {
         $callback! {
             [$($context)*]
 
-            /// `world_from_tool`.
+            /// Pose of the tool, `world_from_tool`.
             ForwardKinematics = forward_kinematics(q) -> $crate::nalgebra::IsometryMatrix3<f64>
             { kernel "`world_from_tool`: the rotation's columns, and the translation in m."
               forward_kinematics_kernel -> ([[R; 3]; 3], [R; 3]) }
@@ -56,7 +56,7 @@ macro_rules! methods {
             { batch jacobian_derivatives_batch from 4 }
             { error twist_derivatives }
 
-            /// Mass matrix M, N×N, full and symmetric, kg·m²: that of the links, and on its diagonal what the
+            /// Mass matrix M of `τ = M q̈ + c(q, q̇) + g(q)`, N×N, full and symmetric, kg·m²: that of the links, and on its diagonal what the
             /// [rotors](crate::Motor) behind their gears add.
             MassMatrix = mass_matrix(q) -> $crate::nalgebra::SMatrix<f64, $n, $n>
             { kernel "Mass matrix, N×N, kg·m²."

@@ -7,7 +7,7 @@ pub mod scalar;
 pub(crate) mod simd;
 pub(crate) mod trigonometry;
 
-use crate::{Real, SerialChain};
+use crate::{Method, MethodSet, Real, SerialChain};
 
 macro_rules! define_unrolled {
     ([] $(
@@ -22,9 +22,15 @@ macro_rules! define_unrolled {
         /// A revolute coordinate must lie within ±[`PLAIN_LIMIT`](crate::arm::PLAIN_LIMIT), and a prismatic one within
         /// ±[`PRISMATIC_LIMIT`](crate::arm::PRISMATIC_LIMIT); [`SerialChain::is_singular`] judges the volume of J's rows.
         /// The methods of [`Arm`](crate::Arm) see to both.
+        ///
+        /// # Panics
+        /// A kernel that is not [generated](Self::GENERATED) and called all the same. The methods of [`Arm`](crate::Arm) do not call it.
         pub trait Unrolled<const N: usize> {
             /// The arm as data, without what it carries at run time.
             const CHAIN: SerialChain<N>;
+
+            /// The methods that have a kernel of their own. [`Arm`](crate::Arm) computes the others by the formulas of [`SerialChain`].
+            const GENERATED: MethodSet;
 
             /// The arm as data, with what it carries.
             fn chain(&self) -> SerialChain<N> {
@@ -33,10 +39,20 @@ macro_rules! define_unrolled {
 
             $(
                 #[doc = $returns]
-                fn $kernel<R: Real>(&self, $($argument: &$crate::argument_type!([R; N] $argument)),+) -> $returned;
+                fn $kernel<R: Real>(&self, $($argument: &$crate::argument_type!([R; N] $argument)),+) -> $returned {
+                    $(let _ = $argument;)+
+                    not_generated(Method::$variant)
+                }
             )+
         }
     };
+}
+
+#[cold]
+fn not_generated(method: Method) -> ! {
+    panic!(
+        "no kernel of `{method}` was generated for this arm: generate it, or call the method of `ulna::Arm`"
+    )
 }
 
 crate::methods! { [N] define_unrolled {} }

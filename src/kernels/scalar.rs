@@ -36,6 +36,9 @@ macro_rules! define_methods {
                 arm: &A,
                 $($argument: &$crate::argument_type!([N] $argument)),+
             ) -> $output {
+                if const { !A::GENERATED.contains(crate::Method::$variant) } {
+                    return crate::Arm::$method(&arm.chain(), $($argument),+);
+                }
                 struct Run<'a, A, const N: usize> {
                     arm: &'a A,
                     $($argument: &'a $crate::argument_type!([f64; N] $argument),)+

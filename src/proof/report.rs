@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::Method;
+use crate::{Method, MethodSet};
 
 /// How far a method of the candidate is from the reference's, at the state where it comes nearest to, or goes farthest beyond,
 /// what is allowed.
@@ -85,6 +85,21 @@ impl Report {
     /// The lines, in the trait's order.
     pub fn deviations(&self) -> &[Deviation] {
         &self.lines[..self.used]
+    }
+
+    /// The lines of `methods` alone, and of what an arm says of itself.
+    #[must_use]
+    pub fn of(mut self, methods: MethodSet) -> Self {
+        let kept = |name: &str| Method::by_name(name).is_none_or(|m| methods.contains(m));
+        let mut used = 0;
+        for i in 0..self.used {
+            if kept(self.lines[i].method) {
+                self.lines[used] = self.lines[i];
+                used += 1;
+            }
+        }
+        self.used = used;
+        self
     }
 
     /// Whether every method is within its tolerance, at one state at least.

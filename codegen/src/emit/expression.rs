@@ -3,11 +3,15 @@
 //! A value that is used once stands where it is used, if that stays readable; the others are named.
 //! A product that only a sum needs becomes a multiply-add: [`ulna::Real`] fuses it where the target can.
 
+use std::collections::{HashMap, HashSet};
+
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
+use ulna::Argument;
 
 use super::literal::literal;
 use crate::graph::{AngleSum, Input};
+use crate::label::Label;
 use crate::op::Op;
 use crate::schedule::{Operand, Output, Program, Step};
 
@@ -52,24 +56,36 @@ pub(super) struct Writer<'p> {
     program: &'p Program,
     /// The name of each step that has one.
     names: Vec<Option<Ident>>,
+    /// The names of steps that are results and nothing else.
+    results: HashMap<usize, Ident>,
     angle_names: Vec<String>,
 }
 
 impl<'p> Writer<'p> {
-    /// Decides which steps are named.
+    /// Decides which steps are named: those that are used more than once, or not short, and results, which are named last.
+    ///
+    /// A name is the value's own, if the formulas gave it one, or else a number.
     pub(super) fn new(program: &'p Program) -> Self {
-        let mut names = Vec::with_capacity(program.steps.len());
-        let mut next = 0_usize;
-        for inline in inlined(program) {
-            names.push((!inline).then(|| {
-                next += 1;
-                format_ident!("t{}", next)
-            }));
+        let angle_names = angle_names(&program.angles);
+        let mut given = Names::new(&angle_names);
+        let inline = inlined(program);
+        let names: Vec<Option<Ident>> = (0..program.steps.len())
+            .map(|step| (!inline[step]).then(|| given.name(program, step)))
+            .collect();
+        let mut results = HashMap::new();
+        for element in program.outputs.iter().flat_map(|output| &output.elements) {
+            if let Operand::Step(step) = *element
+                && inline[step]
+                && !is_plain(program, &names, step)
+            {
+                results.insert(step, given.name(program, step));
+            }
         }
         Self {
             program,
             names,
-            angle_names: angle_names(&program.angles),
+            results,
+            angle_names,
         }
     }
 
@@ -79,6 +95,30 @@ impl<'p> Writer<'p> {
         steps
             .filter_map(|(name, step)| Some((name.clone()?, self.step(step).tokens)))
             .collect()
+    }
+
+    /// The results that have a name of their own, and their expressions, in order.
+    pub(super) fn named_results(&self) -> Vec<(Ident, TokenStream)> {
+        let outputs = self.program.outputs.iter();
+        let elements = outputs.flat_map(|output| &output.elements);
+        elements
+            .filter_map(|element| {
+                let Operand::Step(step) = element else {
+                    return None;
+                };
+                let name = self.results.get(step)?.clone();
+                Some((name, self.value(*element)))
+            })
+            .collect()
+    }
+
+    /// The labels of the steps that are named, results among them if they are `with_results`.
+    pub(super) fn labels(&self, with_results: bool) -> impl Iterator<Item = &'p Label> {
+        let is_named = move |step: usize| {
+            self.names[step].is_some() || (with_results && self.results.contains_key(&step))
+        };
+        let labels = self.program.labels.iter().enumerate();
+        labels.filter_map(move |(step, label)| label.as_ref().filter(|_| is_named(step)))
     }
 
     /// The step behind every named value, in order.
@@ -118,7 +158,13 @@ impl<'p> Writer<'p> {
         let mut rows: Vec<TokenStream> = output
             .elements
             .iter()
-            .map(|e| self.operand(*e).tokens)
+            .map(|e| match e {
+                Operand::Step(step) if self.results.contains_key(step) => {
+                    let name = &self.results[step];
+                    quote!(#name)
+                }
+                _ => self.operand(*e).tokens,
+            })
             .collect();
         for length in output.shape.iter().rev() {
             rows = rows
@@ -257,6 +303,48 @@ impl<'p> Writer<'p> {
         let (factor, other) = (self.operand(b).tokens, self.operand(other).tokens);
         Code::atom(quote!(#receiver.#method(#factor, #other)))
     }
+}
+
+/// Names as they are given, each once.
+struct Names {
+    taken: HashSet<String>,
+    /// How many values without a label there are.
+    numbered: usize,
+}
+
+impl Names {
+    /// None yet, but those of arguments, sines and cosines, and of what generated code has besides.
+    fn new(angle_names: &[String]) -> Self {
+        let arguments = Argument::ALL.map(|argument| argument.name().to_owned());
+        let angles = angle_names
+            .iter()
+            .flat_map(|name| [format!("s{name}"), format!("c{name}")]);
+        let taken = arguments.into_iter().chain(angles);
+        Self {
+            taken: taken.chain(["state".to_owned()]).collect(),
+            numbered: 0,
+        }
+    }
+
+    /// A name for a step: the label, with a letter more if that is taken, or else a number.
+    fn name(&mut self, program: &Program, step: usize) -> Ident {
+        let Some(label) = &program.labels[step] else {
+            self.numbered += 1;
+            return format_ident!("t{}", self.numbered);
+        };
+        let mut name = label.text.clone();
+        while !self.taken.insert(name.clone()) {
+            name.push('b');
+        }
+        format_ident!("{name}")
+    }
+}
+
+/// Whether a step is no more than the negative of something that has a name, and so needs none.
+fn is_plain(program: &Program, names: &[Option<Ident>], step: usize) -> bool {
+    let Step { op, a, .. } = program.steps[step];
+    let unnamed = matches!(a, Operand::Step(step) if names[step].is_none());
+    op == Op::Neg && !unnamed
 }
 
 /// Which steps are written where they are used: those used once and short, and products that a sum can fuse.

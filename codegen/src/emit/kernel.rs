@@ -5,10 +5,8 @@ use quote::{format_ident, quote};
 
 use super::expression::Writer;
 use super::literal::literal;
-use super::parts;
+use super::{documentation, parts};
 use crate::MethodProgram;
-use crate::accuracy::rounded_up;
-use crate::cost::Counts;
 use crate::graph::AngleSum;
 
 /// Names that are declared together. Each `let` opens a scope within which all that follows is nested, and the
@@ -46,16 +44,18 @@ pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
         ([result], [value]) => (quote!(#result), quote!(#value)),
         (types, values) => (quote!((#(#types),*)), quote!((#(#values),*))),
     };
-    let doc = documentation(compiled).map(|line| quote!(#[doc = #line]));
     let angles = angles(&writer, &program.angles);
-    let named = writer.named();
-    let (body, value) = if parts::is_long(named.len()) {
+    let mut named = writer.named();
+    let in_parts = parts::is_long(named.len());
+    let doc = documentation::lines(compiled, writer.labels(!in_parts));
+    let (body, value) = if in_parts {
         (parts::parts(&writer, compiled, &named, joints), quote!())
     } else {
+        named.extend(writer.named_results());
         (statements(&named), value)
     };
     quote! {
-        #(#doc)*
+        #(#[doc = #doc])*
         #[inline(always)]
         fn #name<R: ::ulna::Real>(&self, #(#arguments),*) -> #result {
             #payload
@@ -64,20 +64,6 @@ pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
             #value
         }
     }
-}
-
-fn documentation(compiled: &MethodProgram) -> [String; 4] {
-    let counts = Counts::of(&compiled.program);
-    let (operations, angles) = (counts.total, counts.sin_cos);
-    [
-        format!(" {}", compiled.method.returns()),
-        String::new(),
-        format!(" Operations: {operations}, and sine and cosine of {angles} angles."),
-        format!(
-            " Rounding error of the worst entry, relative to the largest: {}.",
-            rounded_up(compiled.error)
-        ),
-    ]
 }
 
 /// The type, or the value, of nested arrays of one element.

@@ -1,8 +1,10 @@
 //! Programs as Rust: the only place that knows the language's syntax.
 
 mod chain;
+mod documentation;
 mod expression;
 mod kernel;
+mod layout;
 mod literal;
 mod parts;
 mod payload;
@@ -11,7 +13,7 @@ use std::fmt::Write as _;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use ulna::Method;
+use ulna::{Method, MethodSet};
 use ulna_table::Model;
 
 use crate::Compiled;
@@ -52,7 +54,10 @@ impl Generated {
     /// The code as a formatted file with a header that says where it comes from.
     pub fn source(&self) -> String {
         match syn::parse2(self.tokens.clone()) {
-            Ok(file) => format!("{}\n{}", self.header, prettyplease::unparse(&file)),
+            Ok(file) => {
+                let code = layout::laid_out(&prettyplease::unparse(&file));
+                format!("{}\n{code}", self.header)
+            }
             // What the emitter wrote would then not compile either; the compiler's message is the better one.
             Err(_) => format!("{}\n{}\n", self.header, self.tokens),
         }
@@ -95,8 +100,12 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
     } else {
         vec![quote!(super::#name)]
     };
+    let generated = compiled.generated();
+    let absent = absent(generated);
+    let generated = generated.iter().map(|method| format_ident!("{method:?}"));
     quote! {
         #[doc = #summary]
+        #(#[doc = #absent])*
         #structure
 
         #[rustfmt::skip]
@@ -109,6 +118,7 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
         #[rustfmt::skip]
         impl ::ulna::Unrolled<#n> for #name {
             const CHAIN: ::ulna::SerialChain<#n> = Self::CHAIN;
+            const GENERATED: ::ulna::MethodSet = ::ulna::MethodSet::of(&[#(::ulna::Method::#generated),*]);
             #with_payload
             #(#kernels)*
         }
@@ -131,6 +141,30 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
             }
         }
     }
+}
+
+/// What the docs of a type say of the methods that are not generated; nothing if all are.
+fn absent(generated: MethodSet) -> Vec<String> {
+    let rest = generated.rest();
+    if rest.is_empty() {
+        return Vec::new();
+    }
+    let mut lines = vec![
+        String::new(),
+        " Not generated, but computed by the textbook formulas on `CHAIN` (the same numbers but for rounding, slower):".to_owned(),
+    ];
+    lines.extend(listed(rest, |method| format!("`{method}`")));
+    lines
+}
+
+/// Methods in lines of a few.
+fn listed(methods: MethodSet, written: impl Fn(Method) -> String) -> Vec<String> {
+    let names: Vec<String> = methods.iter().map(written).collect();
+    let last = names.chunks(4).len().saturating_sub(1);
+    let lines = names.chunks(4).enumerate();
+    lines
+        .map(|(i, names)| format!(" {}{}", names.join(", "), if i < last { "," } else { "." }))
+        .collect()
 }
 
 /// An arm without anything of its own.
@@ -184,6 +218,14 @@ fn header(model: &Model, source: &str, compiled: &Compiled, counts: &[(Method, C
         line(name.name(), &cells);
     }
     text.truncate(text.trim_end_matches("//   ").len());
+    let absent = compiled.generated().rest();
+    if !absent.is_empty() {
+        text.push_str("//\n// Not generated, but computed by the textbook formulas on CHAIN:\n");
+        for line in listed(absent, |method| method.to_string()) {
+            // Writing to a String does not fail.
+            let _ = writeln!(text, "//  {line}");
+        }
+    }
     let [random, near_singular] = compiled.states;
     // Writing to a String does not fail.
     let _ = write!(

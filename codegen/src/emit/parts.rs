@@ -132,7 +132,8 @@ fn elements_by_last_name(
             let mut names = Vec::new();
             writer.names_in(*operand, &mut names);
             let last = names.iter().filter_map(|name| positions.get(name)).max();
-            let indices = indices(index, &output.shape);
+            let places = output.places(index).into_iter();
+            let indices = places.map(Literal::usize_unsuffixed);
             elements
                 .entry(last.copied().unwrap_or(0))
                 .or_default()
@@ -143,18 +144,6 @@ fn elements_by_last_name(
         }
     }
     elements
-}
-
-/// The indices of the element at `index` in row-major order.
-fn indices(mut index: usize, shape: &[usize]) -> Vec<Literal> {
-    let from_last = shape.iter().rev().map(|length| {
-        let own = index % length;
-        index /= length;
-        Literal::usize_unsuffixed(own)
-    });
-    let mut indices: Vec<Literal> = from_last.collect();
-    indices.reverse();
-    indices
 }
 
 /// Parts of equal length, at most `longest`, and the places of the values that they share.

@@ -45,6 +45,18 @@ impl<'g> Articulated<'g> {
         }
     }
 
+    /// Names the inertia that joint `i` feels.
+    fn named(&self, i: usize) {
+        let i = i + 1;
+        self.linear
+            .labelled("articulated", |axes| format!("aa{axes}_{i}"));
+        for (column, axis) in self.mixed.iter().zip(["x", "y", "z"]) {
+            column.labelled("articulated", |row| format!("ac{row}{axis}_{i}"));
+        }
+        self.angular
+            .labelled("articulated", |axes| format!("ai{axes}_{i}"));
+    }
+
     fn join(self, other: Self) -> Self {
         let [a, b, c] = self.mixed;
         let [x, y, z] = other.mixed;
@@ -187,11 +199,12 @@ pub(crate) fn factors<'g>(chain: &Chain<'g>) -> Factors<'g> {
                 None => own,
             };
             for (k, wrench) in (i + 1..).zip(&wrenches) {
-                upper[i][k] = along(joint.kind, wrench);
+                upper[i][k] = along(joint.kind, wrench).named("u", &[i, k]);
             }
             let column = all.column(joint.kind);
-            let pivot = along(joint.kind, &column) + joint.reflected;
-            let inverse = one / pivot;
+            let pivot = (along(joint.kind, &column) + joint.reflected).named("d", &[i]);
+            let inverse = (one / pivot).named("d_inv", &[i]);
+            all.named(i);
             let unit = Wrench {
                 force: column.force.scale(inverse),
                 moment: column.moment.scale(inverse),

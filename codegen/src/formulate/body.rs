@@ -86,6 +86,15 @@ impl<'g> Body<'g> {
         at_centroid.shift(Vec3::constant(graph, link.com))
     }
 
+    /// The same body: its first moment called `mcx`, `mcy`, `mcz`, and its inertia `ixx`, `iyy`, ..., each with `suffix`.
+    pub fn labelled(self, family: &'static str, suffix: &str) -> Self {
+        self.moment
+            .labelled(family, |axis| format!("mc{axis}{suffix}"));
+        self.inertia
+            .labelled(family, |axes| format!("i{axes}{suffix}"));
+        self
+    }
+
     /// The payload that is an argument, about the origin of the last link's frame.
     pub fn payload(graph: &'g Graph) -> Self {
         let [mass, x, y, z, xx, yy, zz, xy, xz, yz] =

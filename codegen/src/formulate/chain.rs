@@ -14,6 +14,7 @@ use super::body::{Body, add_to_last, base_parameters};
 use super::vector::{Turn, Vec3, quarter_turns};
 use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Input};
+use crate::label::subscripts;
 
 /// A joint on the graph.
 #[derive(Debug)]
@@ -50,6 +51,20 @@ impl<'g> Group<'g> {
     /// A vector of this group's axes, in the axes of the group before.
     pub fn to_parent(&self, v: Vec3<'g>) -> Vec3<'g> {
         v.turn_z(self.turn).turn_x(self.alpha)
+    }
+
+    /// As [`to_parent`](Self::to_parent), of a vector that is [called](Vec3::named) so: the turned one has `_z` and `_zx` behind its name.
+    pub fn to_parent_named(
+        &self,
+        v: Vec3<'g>,
+        family: &'static str,
+        indices: &[usize],
+    ) -> Vec3<'g> {
+        let text = |turned: &'static str| {
+            move |axis: &str| format!("{family}{axis}{}{turned}", subscripts(indices))
+        };
+        let v = v.turn_z(self.turn).labelled(family, text("_z"));
+        v.turn_x(self.alpha).labelled(family, text("_zx"))
     }
 
     /// A vector of the axes of the group before, in this group's.
@@ -105,7 +120,7 @@ impl<'g> Chain<'g> {
             .flat_map(|group| group.joints.clone().map(move |i| (group, i)))
             .map(|(group, i)| ChainJoint {
                 kind: model.joints()[i].kind,
-                offset: offset(graph, model, group, i),
+                offset: offset(graph, model, group, i).named("o", &[i]),
                 group_from_own: sum_of_angles(graph, model, i + 1..group.joints.end).inverse(),
                 body: bodies[i],
                 link: links[i],

@@ -22,15 +22,20 @@ pub(crate) fn factor<'g>(matrix: &[Vec<Expr<'g>>]) -> Factors<'g> {
     let mut pivots = Vec::new();
     let mut inverse_pivots = Vec::new();
     for k in (0..n).rev() {
-        let pivot = rest[k][k];
-        let inverse = pivot.of(1.0) / pivot;
+        let pivot = rest[k][k].named("d", &[k]);
+        let inverse = (pivot.of(1.0) / pivot).named("d_inv", &[k]);
         for i in 0..k {
-            upper[i][k] = rest[i][k] * inverse;
+            rest[i][k].named("ud", &[i, k]);
+            upper[i][k] = (rest[i][k] * inverse).named("u", &[i, k]);
         }
         let column: Vec<Expr<'g>> = rest[..k].iter().map(|row| row[k]).collect();
         for (i, row) in rest[..k].iter_mut().enumerate() {
-            for (entry, other) in row[i..k].iter_mut().zip(&column[i..]) {
+            for (j, (entry, other)) in (i..).zip(row[i..k].iter_mut().zip(&column[i..])) {
                 *entry = *entry - upper[i][k] * *other;
+                // The pivot to come has its own name.
+                if k > 1 && j + 1 < k {
+                    entry.named("schur", &[i, j, k]);
+                }
             }
         }
         pivots.push(pivot);
@@ -61,7 +66,7 @@ impl<'g> Factors<'g> {
             column[j] = one;
             for i in (0..j).rev() {
                 let sum = (i + 1..=j).fold(zero, |sum, k| sum + self.upper[i][k] * column[k]);
-                column[i] = -sum;
+                column[i] = (-sum).named("v", &[i, j]);
             }
             column
         };
@@ -71,6 +76,11 @@ impl<'g> Factors<'g> {
             pairs.map(|(x, inverse)| *x * *inverse).collect()
         };
         let scaled: Vec<Vec<Expr<'g>>> = v.iter().map(over_pivots).collect();
+        for (j, column) in scaled.iter().enumerate() {
+            for (i, x) in column.iter().enumerate() {
+                x.named("v_over_d", &[i, j]);
+            }
+        }
         let entry = |i: usize, j: usize| {
             let (short, long) = (&scaled[i.min(j)], &v[i.max(j)]);
             let pairs = short.iter().zip(long);

@@ -72,17 +72,25 @@ pub(crate) fn inverse_dynamics_with_load<'g>(
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
             let body = joint.body.turn_z(joint.group_from_own);
+            body.labelled("own", &format!("_{}", i + 1));
             let (own_force, own_moment) = wrench(&body, &motions[i]);
+            own_force.labelled("own_wrench", |axis| format!("f{axis}_own_{}", i + 1));
+            own_moment.labelled("own_wrench", |axis| format!("n{axis}_own_{}", i + 1));
             force = force + own_force;
             moment = moment + own_moment;
-            let along = match joint.kind {
-                JointKind::Revolute => moment.0[2],
-                JointKind::Prismatic => force.0[2],
+            // The torque itself is for the caller to name.
+            let ([fx, fy, fz], [nx, ny, nz]) = (force.0, moment.0);
+            let zero = chain.graph.constant(0.0);
+            let (along, f, n) = match joint.kind {
+                JointKind::Revolute => (nz, force, Vec3([nx, ny, zero])),
+                JointKind::Prismatic => (fz, Vec3([fx, fy, zero]), moment),
             };
+            f.named("f", &[i]);
+            n.named("n", &[i]);
             torques[i] = along + joint.reflected * qdd[i];
             if i == group.joints.start {
-                force = group.to_parent(force);
-                moment = group.to_parent(moment);
+                force = group.to_parent_named(force, "f", &[i]);
+                moment = group.to_parent_named(moment, "n", &[i]);
             }
             moment = moment + joint.offset.cross(force);
         }
@@ -112,6 +120,9 @@ fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Moti
         for i in group.joints.clone() {
             let joint = &chain.joints[i];
             motion.acceleration = motion.acceleration + times(&motion.lambda(), joint.offset);
+            motion
+                .acceleration
+                .labelled("a", |axis| format!("a{axis}_{}_before", i + 1));
             if i == group.joints.start {
                 motion = motion.map(|v| group.of_parent(v));
             }
@@ -127,6 +138,14 @@ fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) -> Vec<Moti
                     let coriolis = across(qd[i].of(2.0) * qd[i], qdd[i]);
                     motion.acceleration = motion.acceleration + coriolis;
                 }
+            }
+            motion
+                .velocity
+                .labelled("omega", |axis| format!("w{axis}_{}", i + 1));
+            motion.angular_acceleration.named("al", &[i]);
+            motion.acceleration.named("a", &[i]);
+            for (row, axis) in motion.lambda().iter().zip(["x", "y", "z"]) {
+                row.labelled("lam", |other| format!("lam_{axis}{other}_{}", i + 1));
             }
             motions.push(motion);
         }

@@ -1,10 +1,11 @@
 //! Pose of the tool, geometric Jacobian and its derivatives.
 
-use ulna::JointKind;
+use ulna::{JointKind, TaskRow};
 
 use super::chain::Chain;
 use super::vector::Vec3;
 use crate::graph::Expr;
+use crate::label::subscripts;
 
 /// Velocity of the tool point when one joint alone moves at unit speed.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +23,14 @@ impl<'g> Twist<'g> {
             linear: f(self.linear),
             angular: f(self.angular),
         }
+    }
+
+    /// The same twist, of joint `joint`, its components called after J's rows, x to rz: `j_rx_2` for `j`.
+    pub fn named(self, family: &'static str, joint: usize) -> Self {
+        for (x, row) in self.components().into_iter().zip(TaskRow::ALL) {
+            x.labelled(family, || format!("{family}_{}_{}", row.name(), joint + 1));
+        }
+        self
     }
 
     /// The six components, linear first.
@@ -46,7 +55,7 @@ fn vectors_to_tool<'g>(chain: &Chain<'g>) -> (Vec<Vec3<'g>>, Vec3<'g>) {
     let mut to_tool = Vec3::constant(chain.graph, chain.tool.translation);
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
-            vectors[i] = to_tool;
+            vectors[i] = to_tool.named("r", &[i]);
             if i == group.joints.start {
                 to_tool = group.to_parent(to_tool);
             }
@@ -86,7 +95,10 @@ pub(super) fn express<'g>(chain: &Chain<'g>, v: Vec3<'g>, from: usize, to: usize
 pub fn jacobian_in_group<'g>(chain: &Chain<'g>, group: usize) -> Vec<Twist<'g>> {
     let columns = own_twists(chain).into_iter().enumerate();
     columns
-        .map(|(i, twist)| twist.map(|v| express(chain, v, chain.group_of(i) + 1, group)))
+        .map(|(i, twist)| {
+            let own = chain.group_of(i) + 1;
+            twist.map(|v| express(chain, v, own, group)).named("jt", i)
+        })
         .collect()
 }
 
@@ -113,14 +125,27 @@ fn world_axes<'g>(chain: &Chain<'g>, last: usize) -> Vec<Axes<'g>> {
             ),
             combine(&before, unit(2)),
         ];
+        let number = all.len();
+        name_axes(&twisted, &format!("r{number}x"));
         let (s, c) = (group.turn.sin, group.turn.cos);
-        all.push([
+        let axes = [
             twisted[0].scale(c) + twisted[1].scale(s),
             twisted[1].scale(c) - twisted[0].scale(s),
             twisted[2],
-        ]);
+        ];
+        name_axes(&axes, &format!("r{number}"));
+        all.push(axes);
     }
     all
+}
+
+/// Names the entries of a rotation, row first.
+fn name_axes(axes: &Axes<'_>, name: &str) {
+    for (j, axis) in axes.iter().enumerate() {
+        for (i, x) in axis.0.iter().enumerate() {
+            x.labelled("axes", || format!("{name}{}", subscripts(&[i, j])));
+        }
+    }
 }
 
 /// J by columns, in world axes. Columns beyond group `switch` are turned down to it joint by joint;
@@ -132,7 +157,8 @@ pub fn jacobian_in_world<'g>(chain: &Chain<'g>, switch: usize) -> Vec<Twist<'g>>
         .map(|(i, twist)| {
             let own = chain.group_of(i) + 1;
             let at = own.min(switch);
-            twist.map(|v| combine(&axes[at], express(chain, v, own, at)))
+            let twist = twist.map(|v| combine(&axes[at], express(chain, v, own, at)));
+            twist.named("j", i)
         })
         .collect()
 }

@@ -48,7 +48,17 @@ impl<'g> Manipulability<'g> {
 
 /// det(JJᵀ), the squared volume that J's rows span.
 pub(crate) fn volume_squared<'g>(jacobian: &[Row<'g>]) -> Expr<'g> {
-    product(&orthogonalise(jacobian, 1).pivots)
+    product(&orthogonalise(jacobian, 1, &OF_J).pivots)
+}
+
+/// Names rows: `family_r_j` for the entry of row r at joint j.
+fn named<'g>(rows: Vec<Row<'g>>, family: &'static str) -> Vec<Row<'g>> {
+    for (r, row) in rows.iter().enumerate() {
+        for (j, x) in row.iter().enumerate() {
+            x.named(family, &[r, j]);
+        }
+    }
+    rows
 }
 
 /// How w_D depends on J and M: δ ln w_D = ⟨W, δJ⟩ − ⟨HᵀW, δM⟩.
@@ -68,11 +78,20 @@ pub(crate) fn sensitivity<'g>(
     passes: usize,
 ) -> Sensitivity<'g> {
     let mass_factors = factor(mass);
-    let h: Vec<Row<'g>> = jacobian.iter().map(|row| mass_factors.solve(row)).collect();
-    let basis = orthogonalise(&h, passes);
-    let value = product(&basis.pivots).sqrt();
-    let duals = basis.duals();
-    let w: Vec<Row<'g>> = duals.iter().map(|row| mass_factors.solve(row)).collect();
+    let solved = |rows: &[Row<'g>]| -> (Vec<Row<'g>>, Vec<Row<'g>>) {
+        let solved = rows.iter().map(|row| mass_factors.solve_in_steps(row));
+        solved.unzip()
+    };
+    let (turned, h) = solved(jacobian);
+    let h = named(h, "h");
+    named(turned, "hu");
+    let basis = orthogonalise(&h, passes, &OF_H);
+    let value = product(&basis.pivots)
+        .sqrt()
+        .labelled("w_d", || "w_d".into());
+    let (turned, w) = solved(&basis.duals());
+    let w = named(w, "w");
+    named(turned, "wu");
     // Σ over the rows of h_i w_j: the entry (i, j) of HᵀW.
     let outer = |i: usize, j: usize| {
         let terms = h.iter().zip(&w).map(|(h, w)| h[i] * w[j]);
@@ -124,9 +143,13 @@ pub(crate) fn manipulability_by_factors<'g>(
             .unzip()
     };
     let (h_turned, h) = solved(jacobian);
-    let basis = orthogonalise(&h, passes);
-    let value = product(&basis.pivots).sqrt();
+    let (h, h_turned) = (named(h, "h"), named(h_turned, "hu"));
+    let basis = orthogonalise(&h, passes, &OF_H);
+    let value = product(&basis.pivots)
+        .sqrt()
+        .labelled("w_d", || "w_d".into());
     let (w_turned, w) = solved(&basis.duals());
+    let (w, w_turned) = (named(w, "w"), named(w_turned, "wu"));
     let mut seeded = Vec::new();
     let columns = |a: &[Row<'g>], i: usize, b: &[Row<'g>], k: usize| {
         sum(a.iter().zip(b).map(|(a, b)| a[i] * b[k])).unwrap_or(value)
@@ -153,10 +176,14 @@ fn by_adjoint<'g>(
     seeded.extend(of_mass);
     let joints = jacobian.first().map_or(0, Vec::len);
     let logarithmic = reverse(value.graph(), &seeded, joints);
+    let gradient = logarithmic.into_iter().enumerate().map(|(i, x)| {
+        x.named("dlnw", &[i]);
+        (value * x).named("dw", &[i])
+    });
     Manipulability {
         value,
-        gradient: logarithmic.into_iter().map(|x| value * x).collect(),
-        volume_squared: volume_squared(jacobian),
+        gradient: gradient.collect(),
+        volume_squared: volume_squared(jacobian).labelled("volume", || "det_jjt".into()),
     }
 }
 
@@ -176,28 +203,57 @@ struct Orthogonal<'g> {
     shares: Vec<Vec<Expr<'g>>>,
 }
 
+/// What rows made orthogonal are called, and their squared lengths, one over these, and their shares.
+struct Names([&'static str; 4]);
+
+const OF_H: Names = Names(["e", "ee", "ee_inv", "mu"]);
+const OF_J: Names = Names(["je", "jee", "jee_inv", "jmu"]);
+
 /// The modified Gram–Schmidt process, each row going through it `passes` times.
-fn orthogonalise<'g>(rows: &[Row<'g>], passes: usize) -> Orthogonal<'g> {
+fn orthogonalise<'g>(
+    rows: &[Row<'g>],
+    passes: usize,
+    Names([family, squared, inverse, share]): &Names,
+) -> Orthogonal<'g> {
     let mut basis = Orthogonal {
         reduced: Vec::new(),
         pivots: Vec::new(),
         shares: Vec::new(),
     };
     for row in rows {
+        let number = basis.reduced.len();
         let mut reduced = row.clone();
         let mut shares: Vec<Expr<'g>> = Vec::new();
-        for _ in 0..passes {
+        for pass in 1..=passes {
             for (r, (other, pivot)) in basis.reduced.iter().zip(&basis.pivots).enumerate() {
                 let inner = dot(&reduced, other);
-                let coefficient = inner * (inner.of(1.0) / *pivot);
+                let coefficient = inner * (inner.of(1.0) / *pivot).named(inverse, &[r]);
                 subtract(&mut reduced, coefficient, other);
+                if passes > 1 {
+                    let (row, other) = (number + 1, r + 1);
+                    coefficient.labelled(share, || format!("{share}_{row}_{other}_p{pass}"));
+                    // The last time, it is the row that remains.
+                    if pass < passes || r + 1 < number {
+                        for (j, x) in reduced.iter().enumerate() {
+                            let j = j + 1;
+                            x.labelled(family, || format!("{family}_{row}_{j}_p{pass}_{other}"));
+                        }
+                    }
+                }
                 match shares.get_mut(r) {
                     Some(share) => *share = *share + coefficient,
                     None => shares.push(coefficient),
                 }
             }
         }
-        basis.pivots.push(dot(&reduced, &reduced));
+        for (j, x) in reduced.iter().enumerate() {
+            x.named(family, &[number, j]);
+        }
+        for (r, x) in shares.iter().enumerate() {
+            x.named(share, &[number, r]);
+        }
+        let pivot = dot(&reduced, &reduced).named(squared, &[number]);
+        basis.pivots.push(pivot);
         basis.reduced.push(reduced);
         basis.shares.push(shares);
     }
@@ -207,18 +263,19 @@ fn orthogonalise<'g>(rows: &[Row<'g>], passes: usize) -> Orthogonal<'g> {
 impl<'g> Orthogonal<'g> {
     /// G⁻¹H: the rows' dual basis.
     fn duals(&self) -> Vec<Row<'g>> {
-        let scaled = |(row, pivot): (&Row<'g>, &Expr<'g>)| {
-            let inverse = pivot.of(1.0) / *pivot;
+        let scaled = |(r, (row, pivot)): (usize, (&Row<'g>, &Expr<'g>))| {
+            let inverse = (pivot.of(1.0) / *pivot).named("ee_inv", &[r]);
             row.iter().map(|x| *x * inverse).collect()
         };
-        let mut duals: Vec<Row<'g>> = self.reduced.iter().zip(&self.pivots).map(scaled).collect();
+        let rows = self.reduced.iter().zip(&self.pivots).enumerate();
+        let mut duals: Vec<Row<'g>> = rows.map(scaled).collect();
         for s in (0..duals.len()).rev() {
             let dual = duals[s].clone();
             for (r, coefficient) in self.shares[s].iter().enumerate() {
                 subtract(&mut duals[r], *coefficient, &dual);
             }
         }
-        duals
+        named(duals, "ed")
     }
 }
 

@@ -4,7 +4,7 @@
 use ulna::JointKind;
 
 use super::body::Body;
-use super::chain::Chain;
+use super::chain::{Chain, ChainJoint};
 use super::vector::Vec3;
 use crate::graph::Expr;
 
@@ -16,6 +16,16 @@ pub(crate) struct Momentum<'g> {
     pub linear: Vec3<'g>,
     /// Angular part.
     pub angular: Vec3<'g>,
+}
+
+impl<'g> Momentum<'g> {
+    /// What of it a joint along z feels.
+    fn along(&self, kind: JointKind) -> Expr<'g> {
+        match kind {
+            JointKind::Revolute => self.angular.0[2],
+            JointKind::Prismatic => self.linear.0[2],
+        }
+    }
 }
 
 /// What the inward sweep knows at a joint: about the joint's origin, in its group's axes.
@@ -41,16 +51,21 @@ pub(crate) fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
             };
             let mut momenta = vec![unit_momentum(joint.kind, &composite)];
             momenta.extend(passed);
+            name(i, joint, &own, &composite, &momenta);
             stations.push(Station {
                 composite,
                 momenta: momenta.clone(),
             });
             let mut turned = composite;
             if i == group.joints.start {
-                turned = turned.turn_z(group.turn).turn_x(group.alpha);
-                for momentum in &mut momenta {
-                    momentum.linear = group.to_parent(momentum.linear);
-                    momentum.angular = group.to_parent(momentum.angular);
+                turned = turned
+                    .turn_z(group.turn)
+                    .labelled("turned", &format!("_from_{}_z", i + 1))
+                    .turn_x(group.alpha)
+                    .labelled("turned", &format!("_from_{}_zx", i + 1));
+                for (j, momentum) in (i..).zip(&mut momenta) {
+                    momentum.linear = group.to_parent_named(momentum.linear, "p", &[i, j]);
+                    momentum.angular = group.to_parent_named(momentum.angular, "l", &[i, j]);
                 }
             }
             for momentum in &mut momenta {
@@ -63,18 +78,37 @@ pub(crate) fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
     stations
 }
 
+/// Names what the sweep has at joint `i`; M's entries first, which are among the rest.
+fn name(
+    i: usize,
+    joint: &ChainJoint<'_>,
+    own: &Body<'_>,
+    composite: &Body<'_>,
+    momenta: &[Momentum<'_>],
+) {
+    for (j, momentum) in (i..).zip(momenta) {
+        // A rotor adds to the diagonal.
+        if j > i || joint.reflected.is_zero() {
+            momentum.along(joint.kind).named("m", &[i, j]);
+        }
+    }
+    composite.labelled("from", &format!("_from_{}", i + 1));
+    own.labelled("own", &format!("_{}", i + 1));
+    for (j, momentum) in (i..).zip(momenta) {
+        momentum.linear.named("p", &[i, j]);
+        momentum.angular.named("l", &[i, j]);
+    }
+}
+
 /// M by rows; full and symmetric. Rotors behind rigid gears add to its diagonal.
 pub fn mass_matrix<'g>(chain: &Chain<'g>) -> Vec<Vec<Expr<'g>>> {
     let zero = chain.graph.constant(0.0);
     let mut matrix = vec![vec![zero; chain.joint_count()]; chain.joint_count()];
     for (i, (joint, station)) in chain.joints.iter().zip(stations(chain)).enumerate() {
         for (j, momentum) in (i..).zip(&station.momenta) {
-            let entry = match joint.kind {
-                JointKind::Revolute => momentum.angular.0[2],
-                JointKind::Prismatic => momentum.linear.0[2],
-            };
+            let entry = momentum.along(joint.kind);
             let entry = if i == j {
-                entry + joint.reflected
+                (entry + joint.reflected).named("m", &[i, i])
             } else {
                 entry
             };

@@ -27,7 +27,8 @@ pub(crate) fn mass_matrix_derivatives<'g>(chain: &Chain<'g>) -> Vec<Vec<Vec<Expr
     let mut derivatives = vec![vec![vec![zero; n]; n]; n];
     let twists = twists_at_joints(chain);
     for (i, station) in stations(chain).iter().enumerate() {
-        let mut set = |k: usize, j: usize, value| {
+        let mut set = |k: usize, j: usize, value: Expr<'g>| {
+            value.named("dm", &[i, k, j]);
             derivatives[i][k][j] = value;
             derivatives[i][j][k] = value;
         };
@@ -38,8 +39,11 @@ pub(crate) fn mass_matrix_derivatives<'g>(chain: &Chain<'g>) -> Vec<Vec<Vec<Expr
             }
         }
         let rate = rate_of_change(kind, &station.composite);
+        rate.labelled("rate", &format!("_rate_{}", i + 1));
         for (j, twist) in twists[i].iter().enumerate() {
             let change = momentum_of(&rate, twist);
+            change.linear.named("dp", &[i, j]);
+            change.angular.named("dl", &[i, j]);
             for (k, other) in twists[i][..=j].iter().enumerate() {
                 let linear = other.linear.dot(change.linear);
                 set(k, j, linear + other.angular.dot(change.angular));
@@ -61,6 +65,13 @@ fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
                 if i == group.joints.start {
                     *twist = twist.map(|v| group.of_parent(v));
                 }
+            }
+            for (k, twist) in twists.iter().enumerate() {
+                let place = |what: &'static str| {
+                    move |axis: &str| format!("{what}{axis}_{}_at_{}", k + 1, i + 1)
+                };
+                twist.linear.labelled("twist", place("v"));
+                twist.angular.labelled("twist", place("w"));
             }
             all.push(twists.clone());
             twists.push(match joint.kind {

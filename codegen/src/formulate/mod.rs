@@ -10,13 +10,14 @@ pub(crate) mod factorization;
 pub(crate) mod friction;
 pub(crate) mod inverse_dynamics;
 pub(crate) mod kinematics;
+pub(crate) mod legend;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
 pub(crate) mod task;
 pub(crate) mod vector;
 
-use ulna::Method;
+use ulna::{Method, TaskRow};
 
 use self::chain::Chain;
 use self::friction::{friction, with_friction};
@@ -67,6 +68,35 @@ impl Default for Choices {
     }
 }
 
+/// What of the [`Choices`] is looked for apart from the rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Chosen {
+    /// [`Choices::world`].
+    World,
+    /// All else: how w_D and M's inverse are computed.
+    Task,
+}
+
+/// The choices that a method's formulas depend on. One that is not listed may depend on all of them:
+/// that costs a search where only such methods are generated, and nothing else.
+pub(crate) fn depends_on(method: Method) -> &'static [Chosen] {
+    match method {
+        Method::ForwardKinematics
+        | Method::MassMatrix
+        | Method::MassMatrixDerivatives
+        | Method::InverseDynamics
+        | Method::BiasForce
+        | Method::GravityTorque
+        | Method::ForwardDynamics
+        | Method::InverseDynamicsWithWrench
+        | Method::ForwardDynamicsWithWrench
+        | Method::FrictionTorque
+        | Method::MassMatrixAndDerivatives => &[],
+        Method::GeometricJacobian | Method::JacobianDerivatives => &[Chosen::World],
+        _ => &[Chosen::World, Chosen::Task],
+    }
+}
+
 /// The results of `method`, which are those of its kernel.
 pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
     match method {
@@ -98,7 +128,10 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
             vec![torques(chain, with_friction(chain, &qd, torque))]
         }
         Method::ForwardDynamicsWithWrench => forward_dynamics(chain, load_of_wrench(chain)),
-        Method::FrictionTorque => vec![torques(chain, friction(chain, &chain.inputs(Input::Qd)))],
+        Method::FrictionTorque => {
+            let friction = friction(chain, &chain.inputs(Input::Qd));
+            vec![torques(chain, named(friction, "friction"))]
+        }
         Method::MassMatrixAndDerivatives => vec![mass(chain), derivatives_of_mass(chain)],
         Method::JacobianAndGradient => {
             let mut outputs = vec![jacobian(chain, choices)];
@@ -114,6 +147,12 @@ fn zeros<'g>(chain: &Chain<'g>) -> Vec<Expr<'g>> {
 
 fn forward_kinematics<'g>(chain: &Chain<'g>) -> Outputs<'g> {
     let (axes, origin) = pose(chain);
+    for (j, axis) in axes.iter().enumerate() {
+        for (i, x) in axis.0.iter().enumerate() {
+            x.labelled("pose", || format!("r_{}_{}", i + 1, j + 1));
+        }
+    }
+    origin.labelled("pose", |axis| format!("p_{axis}"));
     let rotation = axes.iter().flat_map(|axis| axis.0).collect();
     vec![
         Output::new("rotation", &[3, 3], rotation),
@@ -130,6 +169,13 @@ fn jacobian<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
 fn derivatives_of_jacobian<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
     let n = chain.joint_count();
     let derivatives = jacobian_derivatives(chain, &jacobian_in_world(chain, choices.world));
+    for (i, twists) in derivatives.iter().enumerate() {
+        for (j, twist) in twists.iter().enumerate() {
+            for (x, row) in twist.components().into_iter().zip(TaskRow::ALL) {
+                x.labelled("dj", || format!("dj_{}_{}_{}", i + 1, row.name(), j + 1));
+            }
+        }
+    }
     let twists = derivatives.iter().flatten();
     let elements = twists.flat_map(|twist| twist.components());
     Output::new("derivatives", &[n, n, 6], elements.collect())
@@ -153,10 +199,25 @@ fn inverse_mass<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
     } else {
         factorization::factor(&mass_matrix(chain))
     };
-    Output::new("inverse", &[n, n], factors.inverse().concat())
+    let inverse = factors.inverse();
+    for (i, row) in inverse.iter().enumerate() {
+        for (j, x) in row.iter().enumerate() {
+            x.named("m_inv", &[i, j]);
+        }
+    }
+    Output::new("inverse", &[n, n], inverse.concat())
+}
+
+/// Names one value for each joint.
+fn named<'g>(values: Vec<Expr<'g>>, family: &'static str) -> Vec<Expr<'g>> {
+    for (i, x) in values.iter().enumerate() {
+        x.named(family, &[i]);
+    }
+    values
 }
 
 fn torques<'g>(chain: &Chain<'g>, elements: Vec<Expr<'g>>) -> Output<Expr<'g>> {
+    let elements = named(elements, "tau");
     Output::new("torque", &[chain.joint_count()], elements)
 }
 
@@ -168,9 +229,12 @@ fn forward_dynamics<'g>(chain: &Chain<'g>, load: Wrench<'g>) -> Outputs<'g> {
     let qd = chain.inputs(Input::Qd);
     let bias = inverse_dynamics_with_load(chain, &qd, &zeros(chain), load);
     let bias = with_friction(chain, &qd, bias);
-    let driving = chain.inputs(Input::Tau).into_iter().zip(bias);
+    let tau = chain.inputs(Input::Tau).into_iter();
+    let driving = tau.zip(named(bias, "bias"));
     let driving: Vec<Expr<'g>> = driving.map(|(tau, bias)| tau - bias).collect();
+    let driving = named(driving, "net");
     let elements = factorization::factor(&mass_matrix(chain)).solve(&driving);
+    let elements = named(elements, "qdd");
     vec![Output::new(
         "acceleration",
         &[chain.joint_count()],

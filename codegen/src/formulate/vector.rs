@@ -6,6 +6,7 @@ use ulna::{Angle, Real};
 
 use crate::double_double::DoubleDouble;
 use crate::graph::{Expr, Graph};
+use crate::label::subscripts;
 
 /// A three-vector.
 #[derive(Clone, Copy, Debug)]
@@ -92,6 +93,21 @@ impl<'g> Vec3<'g> {
         a * x + b * y + c * z
     }
 
+    /// The same vector, its components called `family`, x, y or z, and the indices ([`Expr::named`]): `wx_3`.
+    pub fn named(self, family: &'static str, indices: &[usize]) -> Self {
+        self.labelled(family, |axis| {
+            format!("{family}{axis}{}", subscripts(indices))
+        })
+    }
+
+    /// The same vector, each component called what `text` makes of x, y or z.
+    pub fn labelled(self, family: &'static str, text: impl Fn(&str) -> String) -> Self {
+        for (x, axis) in self.0.into_iter().zip(["x", "y", "z"]) {
+            x.labelled(family, || text(axis));
+        }
+        self
+    }
+
     /// Every component times `factor`.
     pub fn scale(self, factor: Expr<'g>) -> Self {
         Self(self.0.map(|x| x * factor))
@@ -145,6 +161,14 @@ impl<'g> Sym3<'g> {
     /// A tensor of numbers, from the matrix.
     pub fn constant(graph: &'g Graph, m: &[[f64; 3]; 3]) -> Self {
         Self([m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]].map(|x| graph.constant(x)))
+    }
+
+    /// The same tensor, each component called what `text` makes of xx, yy, zz, xy, xz or yz.
+    pub fn labelled(self, family: &'static str, text: impl Fn(&str) -> String) -> Self {
+        for (x, axes) in self.0.into_iter().zip(["xx", "yy", "zz", "xy", "xz", "yz"]) {
+            x.labelled(family, || text(axes));
+        }
+        self
     }
 
     /// The tensor times a vector.

@@ -15,7 +15,7 @@ use nalgebra::SVector;
 use crate::arm::coordinates::{are_plain, coordinates};
 use crate::arm::quantity::Quantity;
 use crate::kernels::simd::{self, BLOCK, BatchCall, Lanes, MAX_WIDTH};
-use crate::{Arm, SerialChain, Unrolled};
+use crate::{Arm, Method, SerialChain, Unrolled};
 
 pub use lengths::LengthMismatch;
 use returned::Returned;
@@ -164,7 +164,11 @@ macro_rules! define_batches {
                         out: &'a mut [$output],
                     }
                     impl<A: Unrolled<N> + Arm<N>, const N: usize> BatchCall for Run<'_, A, N> {
-                        const LEAST_WIDTH: usize = $width;
+                        const LEAST_WIDTH: usize = if A::GENERATED.contains(Method::$variant) {
+                            $width
+                        } else {
+                            usize::MAX
+                        };
 
                         #[inline(always)]
                         fn in_lanes<R: Lanes>(&mut self, states: Range<usize>) {
