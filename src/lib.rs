@@ -72,8 +72,8 @@ pub mod proof;
 pub use arm::method_set::MethodSet;
 pub use arm::methods::{Argument, Method};
 pub use arm::{
-    Angle, Arm, Friction, Joint, JointKind, Limits, Link, Motor, Payload, PayloadError, Placement,
-    TaskRow, TaskRows,
+    Angle, Arm, Friction, Joint, JointKind, Limits, Link, Motor, Parameter, Payload, PayloadError,
+    Placement, TaskRow, TaskRows,
 };
 pub use control::compensation::{
     Compensation, Controller, Cycle, Law, OnLine, Projector, Status, Weighting,

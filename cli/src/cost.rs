@@ -13,12 +13,13 @@ use ulna_codegen::{Counts, Generated};
 use ulna_table::Model;
 
 use crate::methods::Methods;
-use crate::{Verdict, console};
+use crate::{Verdict, base_parameters, console};
 
 /// Count the operations of an arm's code
 #[derive(Args)]
 #[command(
-    after_help = "Examples:\n  ulna cost arms/ssrms.toml\n  ulna cost arms/ssrms.toml --json"
+    after_help = "Examples:\n  ulna cost arms/ssrms.toml\n  ulna cost arms/ssrms.toml --json\n  \
+                  ulna cost arms/ssrms.toml --base-parameters"
 )]
 pub(crate) struct Arguments {
     /// The arm's table (TOML)
@@ -28,10 +29,17 @@ pub(crate) struct Arguments {
     /// Print JSON: the operations of each method of the trait Arm
     #[arg(long)]
     json: bool,
+    /// Print the arm's base (minimal) inertial parameters instead, and what is grouped into each
+    #[arg(long)]
+    base_parameters: bool,
 }
 
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let model = console::load(&arguments.table)?;
+    if arguments.base_parameters {
+        base_parameters::print(&model, arguments.json, out)?;
+        return Ok(Verdict::Pass);
+    }
     let start = Instant::now();
     let generator = arguments.methods.generator();
     let generated = generator.generate(&model, &arguments.table.display().to_string());

@@ -4,6 +4,7 @@
 
 mod arms;
 mod assess;
+mod base_parameters;
 mod campaign;
 mod check;
 mod columns;

@@ -5,6 +5,7 @@ pub use crate::differentiate::reverse;
 pub use crate::formulate::chain::Chain;
 pub use crate::formulate::kinematics::{Twist, jacobian_in_group, jacobian_in_world};
 pub use crate::formulate::mass_matrix::mass_matrix;
+pub use crate::formulate::regressor::Columns;
 pub use crate::formulate::{Choices, formulate};
 pub use crate::graph::{Expr, Graph};
 pub use crate::schedule::schedule;

@@ -16,6 +16,7 @@
 //! - [`Generator`]: all that for some methods alone.
 //! - [`generate`]: a [`Model`] in, [`Generated`] code out, as text or tokens.
 //! - [`compile`]: the [`Program`]s that code is printed from, for whoever prints them in another way.
+//! - [`BaseParameters`]: which combinations of inertial parameters an arm's torques depend on.
 //! - [`Interpreter`]: an arm that runs its programs without a compiler, in `f64` or in 106 bits.
 //!
 //! There are no features.
@@ -32,6 +33,7 @@
 //! | emit | programs | Rust |
 
 mod accuracy;
+mod base_parameters;
 mod build;
 mod choose;
 mod cost;
@@ -54,6 +56,7 @@ use ulna::MethodSet;
 use ulna_table::Model;
 
 pub use accuracy::Conditioned;
+pub use base_parameters::{BaseParameter, BaseParameters, Term};
 pub use build::{Error, compile_arms, compile_folder};
 pub use cost::Counts;
 pub use double_double::DoubleDouble;
@@ -102,6 +105,8 @@ impl MethodProgram {
 pub struct Compiled {
     /// Every method that is generated, in the order of [`Method::ALL`].
     pub methods: Vec<MethodProgram>,
+    /// Which columns of the regressor the base regressor keeps, and why.
+    pub base_parameters: BaseParameters,
     /// At how many states, random ones and near-singular ones, their errors were measured.
     pub states: [usize; 2],
     /// How exact w_D and ∇w_D are; `None` if they are 0 everywhere.
@@ -125,7 +130,11 @@ pub fn compile(model: &Model) -> Compiled {
 /// Those methods as programs.
 fn compile_methods(model: &Model, methods: MethodSet) -> Compiled {
     let states = TestStates::new(model);
-    let choices = choose(model, &states, methods);
+    let base_parameters = BaseParameters::of(model);
+    let choices = Choices {
+        base: base_parameters.columns(),
+        ..choose(model, &states, methods)
+    };
     let methods = methods.iter().map(|method| {
         let program = compile_method(model, method, choices);
         MethodProgram {
@@ -138,6 +147,7 @@ fn compile_methods(model: &Model, methods: MethodSet) -> Compiled {
     Compiled {
         conditioned: conditioned(model, &methods, choices, &states),
         methods,
+        base_parameters,
         states: [states.random(), states.near_singular],
         warnings: warnings_of(&states),
     }

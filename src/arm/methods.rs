@@ -149,6 +149,17 @@ macro_rules! methods {
             { batch friction_torque_batch from 2 }
             { error frictions }
 
+            /// Joint impact torques Δτ of a lock, N·m, before minus after (Eq. 1–12): column k holds those of all joints
+            /// if joint k alone stopped dead now, `Δτ = τ(q, q̇, q̈) − τ(q, q̇ − q̇_k e_k, q̈ − q̈_k e_k)` with τ the inverse dynamics.
+            ///
+            /// N×N, without a change of the tool wrench. The column of a joint at rest is exactly 0. Of any set of joints that lock at once
+            /// it is [`impact_torque`](crate::control::failure::impact_torque) that knows.
+            LockImpacts = lock_impacts(q, qd, qdd) -> $crate::nalgebra::SMatrix<f64, $n, $n>
+            { kernel "Joint impact torques, N×N, N·m: column k if joint k locks, before minus after."
+              lock_impacts_kernel -> [[R; $n]; $n] }
+            { batch lock_impacts_batch from 2 }
+            { error lock_impacts }
+
             /// M and all ∂M/∂q_i in one call.
             MassMatrixAndDerivatives = mass_matrix_and_derivatives(q)
                 -> ($crate::nalgebra::SMatrix<f64, $n, $n>, [$crate::nalgebra::SMatrix<f64, $n, $n>; $n])
@@ -169,6 +180,30 @@ macro_rules! methods {
                 let (w, gradient) = arm.dynamic_manipulability_gradient(q);
                 (arm.geometric_jacobian(q), w, gradient)
             } }
+
+            /// Regressor Y of the inverse dynamics: `τ = Σ_i Y_i π_i`, an N×10 block for each link i, π_i its inertial
+            /// [parameters](crate::Parameter) about the origin of its frame (modified DH): m, m·c (x, y, z), then the inertia xx, xy, xz, yy, yz, zz.
+            ///
+            /// Links alone: what motors, friction or a payload add to the torque is no part of Y π. Block i is 0 in rows j > i,
+            /// and no block depends on any link's parameters. (Atkeson, An and Hollerbach 1986; Khalil and Dombre, section 9.3.)
+            Regressor = regressor(q, qd, qdd) -> [$crate::nalgebra::SMatrix<f64, $n, 10>; $n]
+            { kernel "Regressor, N×10 for each link: torques, N·m, of its unit parameters m, m·c (x, y, z), I (xx, xy, xz, yy, yz, zz)."
+              regressor_kernel -> [[[R; $n]; 10]; $n] }
+            { batch regressor_batch from 4 }
+            { error regressor }
+
+            /// The columns of the base (minimal) parameters as they are in [`Arm::regressor`](crate::Arm::regressor), and 0 in all others:
+            /// as many columns as Y stacked over all motions has independent ones.
+            ///
+            /// A base parameter is a standard parameter with multiples of others grouped into it, so its column is that of Y.
+            /// Which parameters they are follows from the arm's geometry and gravity ([`Parameter::BASE_ORDER`](crate::Parameter::BASE_ORDER) tells the choice);
+            /// generated types list them as `BASE_PARAMETERS`, and `ulna cost --base-parameters` prints what is grouped into each.
+            /// (Gautier and Khalil 1990; Gautier 1991.)
+            BaseRegressor = base_regressor(q, qd, qdd) -> [$crate::nalgebra::SMatrix<f64, $n, 10>; $n]
+            { kernel "The regressor's columns of base parameters, N×10 for each link; all others are 0."
+              base_regressor_kernel -> [[[R; $n]; 10]; $n] }
+            { batch base_regressor_batch from 4 }
+            { error base_regressor }
         }
     };
 }

@@ -9,6 +9,7 @@ mod documentation;
 mod drive;
 pub(crate) mod method_set;
 pub(crate) mod methods;
+mod parameters;
 pub(crate) mod payload;
 pub(crate) mod quantity;
 pub mod singular;
@@ -20,6 +21,7 @@ pub use angle::Angle;
 pub use coordinates::{PLAIN_LIMIT, PRISMATIC_LIMIT};
 pub use description::{Joint, JointKind, Link, Placement};
 pub use drive::{Friction, Limits, Motor};
+pub use parameters::Parameter;
 pub use payload::{Payload, PayloadError};
 pub use task::{TaskRow, TaskRows};
 

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::bounds::{LEAST_SHARE, carried_inertia, own_inertia};
 use super::description::{Link, Placement};
+use super::parameters::Parameter;
 use crate::{Real, SerialChain};
 
 /// A rigid body fixed to the tool: mass, centroid and inertia, in the tool's frame. One that exists is one that a body can have.
@@ -60,7 +61,7 @@ impl Payload {
     /// The largest principal moment, kg·m².
     pub const MAX_MOMENT: f64 = 1e9;
     /// How many [`parameters`](Self::parameters) there are.
-    pub const PARAMETERS: usize = 10;
+    pub const PARAMETERS: usize = Parameter::COUNT;
 
     /// A body of `mass` kg with its centroid at `com`, m, in the tool's frame; `inertia` is the tensor about the centroid
     /// in the tool's axes, kg·m². A point mass has an inertia of zeros.
@@ -130,8 +131,8 @@ impl Payload {
         self.inertia
     }
 
-    /// The ten parameters about the origin of the frame in which the tool stands at `tool`: mass, first moment x, y, z,
-    /// inertia xx, yy, zz, xy, xz, yz.
+    /// The ten standard inertial parameters about the origin of the frame in which the tool stands at `tool`,
+    /// in the order of [`Parameter::ALL`]: what the regressor of the last link multiplies.
     pub fn parameters(&self, tool: &Placement) -> [f64; Self::PARAMETERS] {
         let Link { mass, com, inertia } = self.seen_from(tool);
         let [x, y, z] = com;
@@ -142,11 +143,11 @@ impl Payload {
             moment[1],
             moment[2],
             inertia[0][0] + mass * (y * y + z * z),
-            inertia[1][1] + mass * (z * z + x * x),
-            inertia[2][2] + mass * (x * x + y * y),
             inertia[0][1] - mass * x * y,
             inertia[0][2] - mass * x * z,
+            inertia[1][1] + mass * (z * z + x * x),
             inertia[1][2] - mass * y * z,
+            inertia[2][2] + mass * (x * x + y * y),
         ]
     }
 

@@ -1,27 +1,14 @@
 //! Joints that lock: what is left of the arm, and the impact torque of the lock, Eq. 1–12.
 //!
-//! The paper's recursion is for one revolute joint k. Here any set of joints locks at once, revolute or prismatic:
-//! every joint i has a deviation `Δq̇_i`, `Δq̈_i` of its own (Eq. 1), 0 for the joints that go on,
-//! and each term that the paper writes for i = k or for i > k is kept for every i.
-//!
-//! Readings of the paper, each settled by the identity
-//! `Δτ = ID(q, q̇, q̈) − ID(q, q̇ − Δq̇, q̈ − Δq̈)`, which the recursion meets to rounding, friction apart:
-//! - Δ is *before the lock* minus *after the lock*; the torque step of Eq. 18 is its negative.
-//! - Eq. 2–4: the velocity products take the rate of the joint at hand: that before the lock for i = k, `θ̇_i` for i > k.
-//!   The printed superscripts drift.
-//! - Eq. 5: Δv is nowhere needed, since Eq. 7 to 12 use accelerations only; it is left out.
-//! - Eq. 6: the first term takes Δω̇ of frame i−1, as the others do. Linear motions are those of the frames' origins;
-//!   Eq. 7 takes the centroid's, which has the same terms over `r_ci`.
-//! - Eq. 9 and 10: link k itself already moves differently, so `Δf_ck` and `Δn_ck` count from i = k on in both.
-//! - Gravity is the same before and after and drops out.
+//! The paper's recursion stands in the textbook, `generic/lock.rs`, with the readings of it that are settled there.
+//! Here any set of joints locks at once, revolute or prismatic; what a lock of each joint alone does is
+//! [`Arm::lock_impacts`].
 
-use core::array::from_fn;
-
-use nalgebra::{IsometryMatrix3, Matrix3, SMatrix, SVector, Vector3, Vector6};
+use nalgebra::{SMatrix, SVector, Vector6};
 
 use crate::control::trajectory::{JointState, Trajectory};
 use crate::generic::JointLoad;
-use crate::{Arm, JointKind, SerialChain};
+use crate::{Arm, SerialChain};
 
 /// A set of locked joints, of an arm of at most 64.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -79,7 +66,7 @@ impl<const N: usize> LockedJoints<N> {
     }
 
     /// The joints that still move, counted from 0.
-    pub fn healthy(self) -> impl Iterator<Item = usize> {
+    pub fn healthy(self) -> impl Iterator<Item = usize> + Clone {
         (0..N).filter(move |joint| !self.contains(*joint))
     }
 
@@ -183,12 +170,14 @@ pub fn impact_torque<const N: usize>(
     delta_wrench: &Vector6<f64>,
 ) -> ImpactTorque<N> {
     let transforms = chain.link_transforms(&state.q);
-    let loads = link_deviations(chain, &transforms, state, locked);
-    let mut impact = joint_deviations(chain, &transforms, &loads, delta_wrench);
-    for joint in locked.iter() {
-        impact.torque[joint] += chain.joints[joint].motor.reflected_inertia() * state.qdd[joint];
+    let healthy = locked.hold(state);
+    let delta = [state.qd - healthy.qd, state.qdd - healthy.qdd];
+    let delta_tool = chain.in_tool_frame(&transforms, delta_wrench);
+    let loads = chain.load_deviations(&transforms, &state.qd, &delta, delta_tool);
+    ImpactTorque {
+        loads,
+        torque: chain.along_axes(&loads) + chain.reflected_inertias().component_mul(&delta[1]),
     }
-    impact
 }
 
 /// The motors' part of the impact torque (Eq. 12) of any arm, as the difference of two calls of its inverse dynamics
@@ -208,125 +197,4 @@ pub fn impact_torque_of<const N: usize>(
         impact[joint] -= friction[joint];
     }
     impact
-}
-
-/// A link's motion before the lock, and what the lock takes from it.
-#[derive(Clone, Copy)]
-struct LinkDeviation {
-    velocity: Vector3<f64>,
-    delta_velocity: Vector3<f64>,
-    delta_acceleration: Vector3<f64>,
-    delta_linear_acceleration: Vector3<f64>,
-}
-
-impl LinkDeviation {
-    /// The deviation of the acceleration of a point at `r` from the origin, fixed to the link: Eq. 6 without the rotation.
-    fn point_acceleration(&self, r: &Vector3<f64>) -> Vector3<f64> {
-        let (w, dw) = (self.velocity, self.delta_velocity);
-        self.delta_linear_acceleration
-            + self.delta_acceleration.cross(r)
-            + w.cross(&dw.cross(r))
-            + dw.cross(&w.cross(r))
-            - dw.cross(&dw.cross(r))
-    }
-}
-
-/// Base to tip, Eq. 1–7: `Δf_c` and `Δn_c`, at each link's centroid, in its frame.
-fn link_deviations<const N: usize>(
-    chain: &SerialChain<N>,
-    transforms: &[IsometryMatrix3<f64>; N],
-    state: &JointState<N>,
-    locked: LockedJoints<N>,
-) -> [JointLoad; N] {
-    let z = Vector3::z();
-    let mut last = LinkDeviation {
-        velocity: Vector3::zeros(),
-        delta_velocity: Vector3::zeros(),
-        delta_acceleration: Vector3::zeros(),
-        delta_linear_acceleration: Vector3::zeros(),
-    };
-    from_fn(|i| {
-        let joint = &chain.joints[i];
-        let (rate, acceleration) = (z * state.qd[i], z * state.qdd[i]);
-        let (delta_rate, delta_joint_acceleration) = if locked.contains(i) {
-            (rate, acceleration) // Eq. 1
-        } else {
-            (Vector3::zeros(), Vector3::zeros())
-        };
-        let rotation = transforms[i].rotation.inverse();
-        let velocity = rotation * last.velocity;
-        let delta_velocity = rotation * last.delta_velocity;
-        // Deviation of ω_{i-1} × z q̇_i, of which both factors may change.
-        let delta_product = delta_velocity.cross(&rate) + velocity.cross(&delta_rate)
-            - delta_velocity.cross(&delta_rate);
-        let mut link = LinkDeviation {
-            velocity,
-            delta_velocity,
-            delta_acceleration: rotation * last.delta_acceleration,
-            delta_linear_acceleration: rotation
-                * last.point_acceleration(&transforms[i].translation.vector), // Eq. 6
-        };
-        match joint.kind {
-            JointKind::Revolute => {
-                link.velocity += rate;
-                link.delta_velocity += delta_rate; // Eq. 3
-                link.delta_acceleration += delta_product + delta_joint_acceleration; // Eq. 4
-            }
-            JointKind::Prismatic => {
-                link.delta_linear_acceleration += delta_product * 2.0 + delta_joint_acceleration;
-            }
-        }
-        last = link;
-        let inertia = Matrix3::from_fn(|row, column| joint.link.inertia[row][column]);
-        let (w, dw) = (link.velocity, link.delta_velocity);
-        JointLoad {
-            force: link.point_acceleration(&Vector3::from(joint.link.com)) * joint.link.mass,
-            moment: inertia * link.delta_acceleration
-                + w.cross(&(inertia * dw))
-                + dw.cross(&(inertia * w))
-                - dw.cross(&(inertia * dw)),
-        }
-    })
-}
-
-/// Tip to base: Eq. 8–12.
-fn joint_deviations<const N: usize>(
-    chain: &SerialChain<N>,
-    transforms: &[IsometryMatrix3<f64>; N],
-    loads: &[JointLoad; N],
-    delta_wrench: &Vector6<f64>,
-) -> ImpactTorque<N> {
-    let mut deviations = [JointLoad::default(); N];
-    // The tool stands for frame N+1.
-    let tool = chain.tool.isometry();
-    let tool_from_world = transforms
-        .iter()
-        .fold(chain.base.isometry(), |world_from_last, transform| {
-            world_from_last * transform
-        })
-        .rotation
-        * tool.rotation;
-    let tool_from_world = tool_from_world.inverse();
-    let mut next = JointLoad {
-        force: tool_from_world * delta_wrench.fixed_rows::<3>(0).into_owned(),
-        moment: tool_from_world * delta_wrench.fixed_rows::<3>(3).into_owned(),
-    };
-    let mut from_next = tool;
-    for i in (0..N).rev() {
-        let com = Vector3::from(chain.joints[i].link.com);
-        let force = from_next.rotation * next.force;
-        next = JointLoad {
-            force: force + loads[i].force,
-            moment: from_next.rotation * next.moment
-                + from_next.translation.vector.cross(&force)
-                + loads[i].moment
-                + com.cross(&loads[i].force),
-        };
-        deviations[i] = next;
-        from_next = transforms[i];
-    }
-    ImpactTorque {
-        loads: deviations,
-        torque: SVector::from_fn(|i, _| deviations[i].along_axis(chain.joints[i].kind)),
-    }
 }

@@ -6,10 +6,15 @@ use super::SerialChain;
 use super::kinematics::JointInput;
 
 impl<const N: usize> SerialChain<N> {
+    /// What the rotors behind their gears add to M's diagonal, kg·m² (kg).
+    pub(crate) fn reflected_inertias(&self) -> SVector<f64, N> {
+        SVector::from_fn(|i, _| self.joints[i].motor.reflected_inertia())
+    }
+
     /// M: that of the links, and on its diagonal what the rotors add: of Siciliano's Eq. 7.32 their spin about their own axes,
     /// which rigid gears make `ratio · q̇_i`.
     pub(super) fn mass_matrix_at(&self, inputs: &[JointInput; N]) -> SMatrix<f64, N, N> {
-        let rotors = SVector::from_fn(|i, _| self.joints[i].motor.reflected_inertia());
+        let rotors = self.reflected_inertias();
         self.links_mass_matrix_at(inputs) + SMatrix::from_diagonal(&rotors)
     }
 

@@ -5,14 +5,17 @@
 //! Craig, *Introduction to Robotics* (3rd ed.): frames 3.4, inverse dynamics 6.5;
 //! and the paper on joint impact torque, Eq. 15 and 22–27, for w_D and its gradient.
 
+mod base_columns;
 mod finite_difference;
 mod friction;
 mod kinematics;
 pub mod literal;
+mod lock;
 mod manipulability;
 mod mass_matrix;
 mod newton_euler;
 mod orthogonal;
+mod regressor;
 
 use nalgebra::{IsometryMatrix3, SMatrix, SVector, Vector6};
 
@@ -140,5 +143,32 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
     }
     fn friction_torque(&self, qd: &SVector<f64, N>) -> SVector<f64, N> {
         self.friction(qd)
+    }
+
+    fn lock_impacts(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> SMatrix<f64, N, N> {
+        self.impacts_of_each_lock(q, qd, qdd)
+    }
+
+    fn regressor(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> [SMatrix<f64, N, 10>; N] {
+        self.regressor_at(q, qd, qdd)
+    }
+
+    fn base_regressor(
+        &self,
+        q: &SVector<f64, N>,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+    ) -> [SMatrix<f64, N, 10>; N] {
+        self.base_regressor_at(q, qd, qdd)
     }
 }

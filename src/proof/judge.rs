@@ -1,5 +1,7 @@
 //! How large the error of each kind of quantity is, and how large it may be: a rule for each, named in the table of methods.
 
+mod regressor;
+
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 
 use super::scale::Scale;
@@ -235,6 +237,20 @@ impl<'a, const N: usize> Judge<'a, N> {
 
     fn friction(&self) -> Vector<N> {
         self.reference.friction_torque(&self.state.qd).abs()
+    }
+
+    /// Column by column, each by what the terms of its own sums can amount to: none in that of a joint at rest.
+    pub(super) fn lock_impacts(
+        &self,
+        found: Square<N>,
+        expected: impl FnOnce() -> Square<N>,
+    ) -> Verdict {
+        let difference = found - expected();
+        let error = |k: usize| {
+            let sizes = self.scale.impact(&self.state.qd, &self.state.qdd, k);
+            Scale::torques(&sizes, &difference.column(k).into_owned())
+        };
+        rounded::<N>((0..N).map(error).fold(0.0, worse))
     }
 
     fn torques_of(

@@ -43,7 +43,7 @@ impl<const N: usize> Scale<N> {
             inertia_ahead: roots(&|i| carried_inertia(joints, i, ahead)),
             links: roots(&|i| carried_by_links(joints, i, here)),
             links_ahead: roots(&|i| carried_by_links(joints, i, ahead)),
-            rotors: SVector::from_fn(|i, _| joints[i].motor.reflected_inertia()),
+            rotors: chain.reflected_inertias(),
             condition: 1.0,
             gravity: Vector3::from(chain.gravity).norm() * Real::sqrt(mass),
         };
@@ -82,6 +82,22 @@ impl<const N: usize> Scale<N> {
         let accelerated: f64 = self.links.iter().zip(qdd).map(|(m, x)| m * x.abs()).sum();
         let turned = self.links.amax() * speed * speed;
         self.links * (accelerated + turned + self.gravity) + self.rotors.component_mul(&qdd.abs())
+    }
+
+    /// What the terms of each joint's impact torque may amount to, N·m (N), if `joint` locks in the motion `(q̇, q̈)`:
+    /// those of [`torque`](Self::torque) that have its rate or its acceleration in them.
+    pub(super) fn impact(
+        &self,
+        qd: &SVector<f64, N>,
+        qdd: &SVector<f64, N>,
+        joint: usize,
+    ) -> SVector<f64, N> {
+        let speed: f64 = qd.iter().map(|x| x.abs()).sum();
+        let accelerated = self.links[joint] * qdd[joint].abs();
+        let turned = self.links.amax() * 2.0 * speed * qd[joint].abs();
+        let mut sizes = self.links * (accelerated + turned);
+        sizes[joint] += self.rotors[joint] * qdd[joint].abs();
+        sizes
     }
 
     /// The unit of ∂/∂q_i: 1 for an angle, the chain's length for an offset.

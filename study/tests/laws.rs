@@ -255,7 +255,9 @@ fn laws_stand_to_each_other_as_they_must() {
         for law in OF_CAMPAIGNS.into_iter().filter(|law| !law.bends_force()) {
             let found = of(law);
             assert!(found.max_force_error < 1e-8, "{law}, case {index}");
-            assert!(found.impact >= limit * (1.0 - 1e-9), "{law}, case {index}");
+            // An impact is what is left of torques of some hundred N·m, and joint 7's is nothing beside their rounding.
+            let least = limit * (1.0 - 1e-9) - 1e-12;
+            assert!(found.impact >= least, "{law}, case {index}");
         }
         assert!(of(LawName::AfterOnly).impact <= result.before * (1.0 + 1e-9));
         let (eq16, kinematic) = (of(LawName::PerJoint), of(LawName::Kinematic));

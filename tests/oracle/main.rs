@@ -4,8 +4,10 @@
 //! `cargo test --test oracle -- --nocapture` prints the largest errors.
 
 mod dynamics;
+mod lock;
 mod manipulability;
 mod payload;
+mod regressor;
 
 use nalgebra::{SMatrix, SVector};
 use serde::Deserialize;
@@ -132,8 +134,18 @@ macro_rules! both {
         }
 
         #[test]
+        fn lock() {
+            crate::lock::agrees($backend, $name, &$arm);
+        }
+
+        #[test]
         fn manipulability() {
             crate::manipulability::agrees($backend, $name, &$arm);
+        }
+
+        #[test]
+        fn regressor() {
+            crate::regressor::agrees($backend, $name, &$arm);
         }
     };
 }

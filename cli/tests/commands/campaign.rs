@@ -43,10 +43,10 @@ fn the_file_does_not_depend_on_the_number_of_threads() {
         assert_eq!(cells[0], i.to_string());
         assert_eq!(cells[1], (i % 7 + 1).to_string());
         let number = |name: &str| cells[column(name)].parse::<f64>().unwrap();
-        // No compensation that keeps the force leaves less than the limit.
+        // No compensation that keeps the force leaves less than the limit, but for the rounding of torques of some hundred N·m.
         for law in ["eq20", "after_only", "on_line"] {
             assert!(
-                number("limit") <= number(law) * (1.0 + 1e-9),
+                number("limit") <= number(law) * (1.0 + 1e-9) + 1e-12,
                 "{law}: {row}"
             );
             assert!(

@@ -57,6 +57,37 @@ fn the_table_has_lines_and_seconds_too() {
 }
 
 #[test]
+fn base_parameters_are_listed_with_what_is_grouped_into_them() {
+    let run = ulna(&["cost", "arms/planar_2r.toml", "--base-parameters"])
+        .code(0)
+        .stderr("");
+    // A point mass on the second joint's axis is one on the first link, a metre out.
+    let expected = "\
+planar_2r: 6 base parameters of 20 inertial ones, about the origins of the links' frames
+mx1 + m2
+my1
+Izz1 + m2
+mx2
+my2
+Izz2
+";
+    assert_eq!(stdout(&run), expected);
+    let run = ulna(&["cost", "arms/planar_2r.toml", "--base-parameters", "--json"])
+        .code(0)
+        .stderr("");
+    let listed: Value = serde_json::from_str(&stdout(&run)).unwrap();
+    assert_eq!(listed["arm"], "planar_2r");
+    let first = &listed["base_parameters"][0];
+    assert_eq!(
+        (&first["link"], &first["parameter"]),
+        (&1.into(), &"mx".into())
+    );
+    let grouped = serde_json::json!([{ "coefficient": 1.0, "link": 2, "parameter": "m" }]);
+    assert_eq!(first["grouped"], grouped);
+    assert_eq!(listed["base_parameters"].as_array().unwrap().len(), 6);
+}
+
+#[test]
 fn a_bad_table_is_refused() {
     let folder = folder_with_bad_table();
     let table = folder.path().join("bad.toml");

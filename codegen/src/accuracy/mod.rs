@@ -23,7 +23,7 @@ use crate::schedule::{Program, Size, schedule};
 pub use scalar::Arguments;
 pub use scalar::Scalar;
 
-use state::State;
+pub(crate) use state::State;
 use walk::walk;
 
 /// States at random.

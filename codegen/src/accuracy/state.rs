@@ -12,7 +12,7 @@ use crate::schedule::Program;
 
 /// Arguments of a method.
 #[derive(Clone, Debug, Default)]
-pub(super) struct State {
+pub(crate) struct State {
     pub(super) q: Vec<f64>,
     pub(super) qd: Vec<f64>,
     pub(super) qdd: Vec<f64>,
@@ -22,7 +22,7 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) fn random(model: &Model, random: &mut SplitMix64) -> Self {
+    pub(crate) fn random(model: &Model, random: &mut SplitMix64) -> Self {
         let mut vector = || -> Vec<f64> {
             let joints = model.joints().iter();
             joints.map(|_| random.symmetric()).collect()
@@ -69,7 +69,7 @@ impl State {
         }
     }
 
-    pub(super) fn exactly(&self, program: &Program) -> Vec<DoubleDouble> {
+    pub(crate) fn exactly(&self, program: &Program) -> Vec<DoubleDouble> {
         evaluate(program, self.arguments(), DoubleDouble::sin_cos)
     }
 

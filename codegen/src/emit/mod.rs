@@ -1,5 +1,6 @@
 //! Programs as Rust: the only place that knows the language's syntax.
 
+mod base_parameters;
 mod chain;
 mod documentation;
 mod expression;
@@ -80,6 +81,7 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
     let summary = format!(" The arm `{}`: {joints} joints, unrolled.", model.name());
     let chain = chain::chain(model);
     let joint_names = chain::joint_names(model);
+    let base_parameters = base_parameters::base_parameters(&compiled.base_parameters);
     let n = Literal::usize_unsuffixed(joints);
     let kernels = compiled
         .methods
@@ -113,6 +115,8 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
             #chain
             #joint_names
             #methods
+
+            #base_parameters
         }
 
         #[rustfmt::skip]

@@ -1,6 +1,6 @@
 //! Inertial parameters: of a link, and of all links beyond a joint together.
 
-use ulna::{Joint, JointKind, Link};
+use ulna::{Joint, JointKind, Link, Parameter};
 use ulna_table::Model;
 
 use super::vector::{Sym3, Turn, Vec3};
@@ -40,22 +40,30 @@ pub(crate) fn base_parameters<'g>(
         let passed = indifferent_part(joint, &bodies[i]);
         bodies[i] = bodies[i].join(passed.scale(graph.constant(-1.0)));
         if i > 0 {
-            let (alpha, theta) = (
-                Turn::by_angle(graph, joint.alpha),
-                Turn::by_angle(graph, joint.theta),
-            );
-            let zero = graph.constant(0.0);
-            let along = Vec3([zero, zero, graph.constant(joint.d)]);
-            let origin = Vec3([graph.constant(joint.a), zero, zero]) + along.turn_x(alpha);
-            let passed = passed.turn_z(theta).turn_x(alpha).shift(origin);
-            bodies[i - 1] = bodies[i - 1].join(passed);
+            bodies[i - 1] = bodies[i - 1].join(seen_from_link_before(graph, joint, passed));
         }
     }
     bodies
 }
 
+/// A body of a joint's link in the frame of the link before, the joint at rest.
+pub(crate) fn seen_from_link_before<'g>(
+    graph: &'g Graph,
+    joint: &Joint,
+    body: Body<'g>,
+) -> Body<'g> {
+    let (alpha, theta) = (
+        Turn::by_angle(graph, joint.alpha),
+        Turn::by_angle(graph, joint.theta),
+    );
+    let zero = graph.constant(0.0);
+    let along = Vec3([zero, zero, graph.constant(joint.d)]);
+    let origin = Vec3([graph.constant(joint.a), zero, zero]) + along.turn_x(alpha);
+    body.turn_z(theta).turn_x(alpha).shift(origin)
+}
+
 /// The part of a link's parameters that looks the same from the link before however the joint stands.
-fn indifferent_part<'g>(joint: &Joint, body: &Body<'g>) -> Body<'g> {
+pub(crate) fn indifferent_part<'g>(joint: &Joint, body: &Body<'g>) -> Body<'g> {
     let zero = body.mass.of(0.0);
     match joint.kind {
         JointKind::Revolute => {
@@ -97,17 +105,27 @@ impl<'g> Body<'g> {
 
     /// The payload that is an argument, about the origin of the last link's frame.
     pub fn payload(graph: &'g Graph) -> Self {
-        let [mass, x, y, z, xx, yy, zz, xy, xz, yz] =
-            std::array::from_fn(|i| graph.input(Input::Payload(i)));
+        Self::of_parameters(std::array::from_fn(|i| graph.input(Input::Payload(i))))
+    }
+
+    /// The body whose parameters, in the order of [`Parameter::ALL`], are these numbers.
+    pub fn of_parameters(parameters: [Expr<'g>; Parameter::COUNT]) -> Self {
+        let [mass, mx, my, mz, xx, xy, xz, yy, yz, zz] = parameters;
         Self {
             mass,
-            moment: Vec3([x, y, z]),
+            moment: Vec3([mx, my, mz]),
             inertia: Sym3([xx, yy, zz, xy, xz, yz]),
         }
     }
 
+    /// Its parameters, in the order of [`Parameter::ALL`].
+    pub fn parameters(self) -> [Expr<'g>; Parameter::COUNT] {
+        let ([mx, my, mz], [xx, yy, zz, xy, xz, yz]) = (self.moment.0, self.inertia.0);
+        [self.mass, mx, my, mz, xx, xy, xz, yy, yz, zz]
+    }
+
     /// Every parameter times `factor`.
-    fn scale(self, factor: Expr<'g>) -> Self {
+    pub fn scale(self, factor: Expr<'g>) -> Self {
         Self {
             mass: self.mass * factor,
             moment: self.moment.scale(factor),

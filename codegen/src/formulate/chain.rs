@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use ulna::{Angle, Friction, JointKind, Motor, Placement, TaskRows};
+use ulna::{Angle, Friction, Joint, JointKind, Motor, Placement, TaskRows};
 use ulna_table::Model;
 
 use super::body::{Body, add_to_last, base_parameters};
@@ -82,6 +82,8 @@ pub struct Chain<'g> {
     pub joints: Vec<ChainJoint<'g>>,
     /// Their groups, base first.
     pub groups: Vec<Group<'g>>,
+    /// The joints' rows, base first.
+    pub rows: Vec<Joint>,
     /// `world_from_base`.
     pub base: Placement,
     /// `frame_N_from_tool`.
@@ -111,7 +113,7 @@ impl<'g> Chain<'g> {
             .into_iter()
             .map(|joints| Group {
                 alpha: Turn::by_angle(graph, model.joints()[joints.start].alpha),
-                turn: sum_of_angles(graph, model, joints.clone()),
+                turn: sum_of_angles(graph, model.joints(), joints.clone()),
                 joints,
             })
             .collect();
@@ -121,7 +123,8 @@ impl<'g> Chain<'g> {
             .map(|(group, i)| ChainJoint {
                 kind: model.joints()[i].kind,
                 offset: offset(graph, model, group, i).named("o", &[i]),
-                group_from_own: sum_of_angles(graph, model, i + 1..group.joints.end).inverse(),
+                group_from_own: sum_of_angles(graph, model.joints(), i + 1..group.joints.end)
+                    .inverse(),
                 body: bodies[i],
                 link: links[i],
                 reflected: rotors[i],
@@ -132,6 +135,7 @@ impl<'g> Chain<'g> {
             graph,
             joints,
             groups,
+            rows: model.joints().to_vec(),
             base: *model.base(),
             tool: *model.tool(),
             gravity: Vec3::constant(graph, model.gravity()),
@@ -144,6 +148,11 @@ impl<'g> Chain<'g> {
     /// How many joints there are.
     pub fn joint_count(&self) -> usize {
         self.joints.len()
+    }
+
+    /// The turn by a joint's own angle, about z.
+    pub fn own_turn(&self, joint: usize) -> Turn<'g> {
+        sum_of_angles(self.graph, &self.rows, joint..joint + 1)
     }
 
     /// The group of a joint, by index.
@@ -227,19 +236,19 @@ fn offset<'g>(graph: &'g Graph, model: &Model, group: &Group<'g>, i: usize) -> V
     if i == group.joints.start {
         across + along.turn_x(group.alpha)
     } else {
-        (across + along).turn_z(sum_of_angles(graph, model, i..group.joints.end).inverse())
+        (across + along).turn_z(sum_of_angles(graph, model.joints(), i..group.joints.end).inverse())
     }
 }
 
 /// The turn by the angles of some joints together. Quarter turns are taken out, and so stay exact.
-fn sum_of_angles<'g>(graph: &'g Graph, model: &Model, range: Range<usize>) -> Turn<'g> {
+fn sum_of_angles<'g>(graph: &'g Graph, joints: &[Joint], range: Range<usize>) -> Turn<'g> {
     let mut quarters = 0;
     let mut sum = AngleSum::default();
     for i in range {
-        let (whole, rest) = quarter_turns(model.joints()[i].theta);
+        let (whole, rest) = quarter_turns(joints[i].theta);
         quarters += whole;
         sum.offset = sum.offset + rest;
-        if model.joints()[i].kind == JointKind::Revolute {
+        if joints[i].kind == JointKind::Revolute {
             sum.joints.push(i);
         }
     }

@@ -11,13 +11,15 @@ pub(crate) mod friction;
 pub(crate) mod inverse_dynamics;
 pub(crate) mod kinematics;
 pub(crate) mod legend;
+pub(crate) mod lock_impacts;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
+pub(crate) mod regressor;
 pub(crate) mod task;
 pub(crate) mod vector;
 
-use ulna::{Method, TaskRow};
+use ulna::{Method, Parameter, TaskRow};
 
 use self::chain::Chain;
 use self::friction::{friction, with_friction};
@@ -25,8 +27,10 @@ use self::inverse_dynamics::{
     Wrench, inverse_dynamics, inverse_dynamics_with_load, load_of_wrench,
 };
 use self::kinematics::{jacobian_derivatives, jacobian_in_world, pose};
+use self::lock_impacts::lock_impacts;
 use self::mass_matrix::mass_matrix;
 use self::mass_matrix_derivatives::mass_matrix_derivatives;
+use self::regressor::{Columns, regressor_columns};
 use self::task::{manipulability_alone, manipulability_and_gradient};
 use crate::graph::{Expr, Input};
 use crate::schedule::{Output, Size};
@@ -50,6 +54,8 @@ pub struct Choices {
     pub articulated: bool,
     /// Whether the task is singular in every configuration, so that w_D is 0 there.
     pub singular: bool,
+    /// Which columns of the regressor are those of base parameters.
+    pub base: Columns,
 }
 
 /// As the table says.
@@ -64,6 +70,7 @@ impl Default for Choices {
             passes: 2,
             articulated: false,
             singular: false,
+            base: Columns::default(),
         }
     }
 }
@@ -132,12 +139,15 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
             let friction = friction(chain, &chain.inputs(Input::Qd));
             vec![torques(chain, named(friction, "friction"))]
         }
+        Method::LockImpacts => vec![impacts(chain)],
         Method::MassMatrixAndDerivatives => vec![mass(chain), derivatives_of_mass(chain)],
         Method::JacobianAndGradient => {
             let mut outputs = vec![jacobian(chain, choices)];
             outputs.extend(manipulability_and_gradient(chain, choices));
             outputs
         }
+        Method::Regressor => vec![regressor(chain, Columns::default())],
+        Method::BaseRegressor => vec![regressor(chain, choices.base)],
     }
 }
 
@@ -221,6 +231,11 @@ fn torques<'g>(chain: &Chain<'g>, elements: Vec<Expr<'g>>) -> Output<Expr<'g>> {
     Output::new("torque", &[chain.joint_count()], elements)
 }
 
+fn impacts<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
+    let n = chain.joint_count();
+    Output::new("impacts", &[n, n], lock_impacts(chain).concat())
+}
+
 fn unloaded<'g>(chain: &Chain<'g>) -> Wrench<'g> {
     (chain.zero(), chain.zero())
 }
@@ -240,4 +255,10 @@ fn forward_dynamics<'g>(chain: &Chain<'g>, load: Wrench<'g>) -> Outputs<'g> {
         &[chain.joint_count()],
         elements,
     )]
+}
+
+fn regressor<'g>(chain: &Chain<'g>, columns: Columns) -> Output<Expr<'g>> {
+    let n = chain.joint_count();
+    let elements = regressor_columns(chain, columns).concat().concat();
+    Output::new("regressor", &[n, Parameter::COUNT, n], elements)
 }

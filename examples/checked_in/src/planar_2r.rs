@@ -14,11 +14,11 @@
 //   bias_force                             4       1      12       0       0       0      17       2   2e-14
 //   gravity_torque                         2       0       7       0       0       0       9       2   2e-14
 //   forward_dynamics                       6       6      19       1       0       0      32       2   2e-14
-//   inverse_dynamics_with_wrench          13       3      21       0       0       0      37       2   2e-14
-//   forward_dynamics_with_wrench          10       8      24       1       0       0      43       2   2e-14
-//   friction_torque                        0       0       0       0       0       0       0       0       0
+//   lock_impacts                           3       3      13       0       0       0      19       1   2e-15
 //   mass_matrix_and_derivatives            2       0       2       0       2       0       6       1   2e-15
 //   jacobian_and_gradient                 24      21      75       4       2       1     127       2   7e-12
+//   regressor                              7       3      12       0       3       0      25       2   3e-15
+//   base_regressor                         7       3      12       0       3       0      25       2   3e-15
 //
 // error: of the worst entry, relative to the largest, in double precision. 8 times what was measured at
 // 16 random states and 5 near singular poses, where J's rows span 1e-4 of the product of their lengths.
@@ -40,9 +40,6 @@ impl Planar2r {
                 theta: ::ulna::Angle::from_radians(0.0),
                 d: 0.0,
                 rated_torque: Some(40.0),
-                limits: ::ulna::Limits::NONE,
-                motor: ::ulna::Motor::NONE,
-                friction: ::ulna::Friction::NONE,
                 link: ::ulna::Link {
                     mass: 1.0,
                     com: [0.5, 0.0, 0.0],
@@ -60,9 +57,6 @@ impl Planar2r {
                 theta: ::ulna::Angle::from_radians(0.0),
                 d: 0.0,
                 rated_torque: Some(15.0),
-                limits: ::ulna::Limits::NONE,
-                motor: ::ulna::Motor::NONE,
-                friction: ::ulna::Friction::NONE,
                 link: ::ulna::Link {
                     mass: 1.0,
                     com: [0.5, 0.0, 0.0],
@@ -82,629 +76,471 @@ impl Planar2r {
         gravity: [0.0, -9.81, 0.0],
         task: ::ulna::TaskRows::new(&[::ulna::TaskRow::X, ::ulna::TaskRow::Y]),
     };
-    /// What the joints are called, base first.
-    pub const JOINT_NAMES: [&'static str; 2] = ["joint 1", "joint 2"];
+    /// The base (minimal) inertial parameters: each one's link and its column in the link's block of the regressor, both from 0.
+    pub const BASE_PARAMETERS: [(usize, usize); 6] = [
+        (0, 1),
+        (0, 2),
+        (0, 9),
+        (1, 1),
+        (1, 2),
+        (1, 9),
+    ];
 }
 #[rustfmt::skip]
 impl ::ulna::Unrolled<2> for Planar2r {
     const CHAIN: ::ulna::SerialChain<2> = Self::CHAIN;
-    const GENERATED: ::ulna::MethodSet = ::ulna::MethodSet::of(
-        &[
-            ::ulna::Method::ForwardKinematics, ::ulna::Method::GeometricJacobian,
-            ::ulna::Method::JacobianDerivatives, ::ulna::Method::MassMatrix,
-            ::ulna::Method::MassMatrixDerivatives, ::ulna::Method::InverseMassMatrix,
-            ::ulna::Method::DynamicManipulability, ::ulna::Method::DynamicManipulabilityGradient,
-            ::ulna::Method::InverseDynamics, ::ulna::Method::BiasForce,
-            ::ulna::Method::GravityTorque, ::ulna::Method::ForwardDynamics,
-            ::ulna::Method::InverseDynamicsWithWrench, ::ulna::Method::ForwardDynamicsWithWrench,
-            ::ulna::Method::FrictionTorque, ::ulna::Method::MassMatrixAndDerivatives,
-            ::ulna::Method::JacobianAndGradient,
-        ],
-    );
-    /// Pose of the tool, `world_from_tool`.
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: `world_from_tool`: the rotation's columns, and the translation in m.
+    /// `world_from_tool`: the rotation's columns, and the translation in m.
     ///
     /// Operations: 8, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 4e-15.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `rx_i, ry_i, rz_i`: from joint i's origin to the tool point, m
-    /// - `r_i_j, p_x, p_y, p_z`: the tool's rotation, and its place, m
     #[inline(always)]
-    fn forward_kinematics_kernel<R: ::ulna::Real>(&self, q: &[R; 2]) -> ([[R; 3]; 3], [R; 3]) {
+    fn forward_kinematics_kernel<R: ::ulna::Real>(q: &[R; 2]) -> ([[R; 3]; 3], [R; 3]) {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let rx_1 = R::of(1.0) + c2;
-        let p_x = c12.mul_add(rx_1, s12 * s2);
-        let p_y = c12.neg_mul_add(s2, s12 * rx_1);
+        let t1 = R::of(1.0) + c2;
         (
-            [[c12, s12, R::of(0.0)], [-s12, c12, R::of(0.0)], [R::of(0.0), R::of(0.0), R::of(1.0)]],
-            [p_x, p_y, R::of(0.0)],
+            [
+                [c12, s12, R::of(0.0)],
+                [-s12, c12, R::of(0.0)],
+                [R::of(0.0), R::of(0.0), R::of(1.0)],
+            ],
+            [c12.mul_add(t1, s12 * s2), c12.neg_mul_add(s2, s12 * t1), R::of(0.0)],
         )
     }
-    /// Geometric Jacobian J, 6×N: `[v; ω] = J q̇`. All six rows, whatever the task.
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: Geometric Jacobian, 6×N: columns `[v; ω]` in world axes, at the tool point.
+    /// Geometric Jacobian, 6×N: columns `[v; ω]` in world axes, at the tool point.
     ///
     /// Operations: 9, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 4e-15.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `rx_i, ry_i, rz_i`: from joint i's origin to the tool point, m
-    /// - `j_x_i ... j_rz_i`: column i of J: rows x, y, z (velocity) and rx, ry, rz (angular velocity)
     #[inline(always)]
-    fn geometric_jacobian_kernel<R: ::ulna::Real>(&self, q: &[R; 2]) -> [[R; 6]; 2] {
+    fn geometric_jacobian_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[R; 6]; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let rx_1 = R::of(1.0) + c2;
-        let j_x_1 = -c12.neg_mul_add(s2, s12 * rx_1);
-        let j_y_1 = c12.mul_add(rx_1, s12 * s2);
+        let t1 = R::of(1.0) + c2;
         [
-            [j_x_1, j_y_1, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
+            [
+                -c12.neg_mul_add(s2, s12 * t1),
+                c12.mul_add(t1, s12 * s2),
+                R::of(0.0),
+                R::of(0.0),
+                R::of(0.0),
+                R::of(1.0),
+            ],
             [-s12, c12, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
         ]
     }
-    /// ∂J/∂q_i, one 6×N matrix for each i.
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: ∂J/∂q_i, 6×N for each i: columns `[v; ω]` in world axes, at the tool point.
+    /// ∂J/∂q_i, 6×N for each i: columns `[v; ω]` in world axes, at the tool point.
     ///
     /// Operations: 11, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 4e-15.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `rx_i, ry_i, rz_i`: from joint i's origin to the tool point, m
-    /// - `j_x_i ... j_rz_i`: column i of J: rows x, y, z (velocity) and rx, ry, rz (angular velocity)
-    /// - `dj_i_x_j ... dj_i_rz_j`: ∂/∂q_i of column j of J
     #[inline(always)]
-    fn jacobian_derivatives_kernel<R: ::ulna::Real>(&self, q: &[R; 2]) -> [[[R; 6]; 2]; 2] {
+    fn jacobian_derivatives_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[[R; 6]; 2]; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let rx_1 = R::of(1.0) + c2;
-        let j_x_2 = -s12;
-        let dj_1_x_2 = -c12;
-        let dj_1_x_1 = -c12.mul_add(rx_1, s12 * s2);
-        let j_x_1 = -c12.neg_mul_add(s2, s12 * rx_1);
+        let t1 = R::of(1.0) + c2;
+        let t2 = -s12;
+        let t3 = -c12;
         [
             [
-                [dj_1_x_1, j_x_1, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-                [dj_1_x_2, j_x_2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
+                [
+                    -c12.mul_add(t1, s12 * s2),
+                    -c12.neg_mul_add(s2, s12 * t1),
+                    R::of(0.0),
+                    R::of(0.0),
+                    R::of(0.0),
+                    R::of(0.0),
+                ],
+                [t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
             ],
             [
-                [dj_1_x_2, j_x_2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-                [dj_1_x_2, j_x_2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
+                [t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
+                [t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
             ],
         ]
     }
-    /// Mass matrix M of `τ = M q̈ + c(q, q̇) + g(q)`, N×N, full and symmetric, kg·m²: that of the links, and on its diagonal what the
-    /// [rotors](ulna::Motor) behind their gears add.
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: Mass matrix, N×N, kg·m².
+    /// Mass matrix, N×N, kg·m².
     ///
     /// Operations: 3, and sine and cosine of 1 angles.
     /// Rounding error of the worst entry, relative to the largest: 2e-15.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `m_i_j`: entry of the mass matrix M
     #[inline(always)]
-    fn mass_matrix_kernel<R: ::ulna::Real>(&self, q: &[R; 2]) -> [[R; 2]; 2] {
+    fn mass_matrix_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[R; 2]; 2] {
         let ([_], [c2]) = R::sin_cos_all([q[1]]);
-        let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let m_1_1 = R::of(1.6669791666666667) + c2;
-        [[m_1_1, m_1_2], [m_1_2, R::of(0.3334895833333333)]]
+        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        [[R::of(1.6669791666666667) + c2, t1], [t1, R::of(0.3334895833333333)]]
     }
-    /// ∂M/∂q_i, one N×N matrix for each i.
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: ∂M/∂q_i, N×N for each i, kg·m²/rad.
+    /// ∂M/∂q_i, N×N for each i, kg·m²/rad.
     ///
     /// Operations: 3, and sine and cosine of 1 angles.
     /// Rounding error of the worst entry, relative to the largest: 2e-15.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `dm_i_j_k`: ∂/∂q_i of `m_j_k`
     #[inline(always)]
-    fn mass_matrix_derivatives_kernel<R: ::ulna::Real>(&self, q: &[R; 2]) -> [[[R; 2]; 2]; 2] {
+    fn mass_matrix_derivatives_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[[R; 2]; 2]; 2] {
         let ([s2], [_]) = R::sin_cos_all([q[1]]);
-        let dm_2_1_2 = -(R::of(0.5) * s2);
+        let t1 = -(R::of(0.5) * s2);
         [
             [[R::of(0.0), R::of(0.0)], [R::of(0.0), R::of(0.0)]],
-            [[-s2, dm_2_1_2], [dm_2_1_2, R::of(0.0)]],
+            [[-s2, t1], [t1, R::of(0.0)]],
         ]
     }
-    /// Inverse mass matrix M⁻¹, N×N, full and symmetric, 1/(kg·m²): `q̈ = M⁻¹ τ` at rest and without gravity.
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: Inverse mass matrix, N×N, 1/(kg·m²).
+    /// Inverse mass matrix, N×N, 1/(kg·m²).
     ///
     /// Operations: 11, and sine and cosine of 1 angles.
     /// Rounding error of the worst entry, relative to the largest: 7e-15.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `m_i_j`: entry of the mass matrix M
-    /// - `m_inv_i_j`: entry of M⁻¹
-    /// - `d_inv_i`: 1 / `d_i`
-    /// - `u_i_j`: entry of U in M = U D Uᵀ
-    /// - `v_over_d_i_j`: `v_i_j` / `d_i`
     #[inline(always)]
-    fn inverse_mass_matrix_kernel<R: ::ulna::Real>(&self, q: &[R; 2]) -> [[R; 2]; 2] {
+    fn inverse_mass_matrix_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[R; 2]; 2] {
         let ([_], [c2]) = R::sin_cos_all([q[1]]);
-        let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let u_1_2 = m_1_2 * R::of(2.9985944088708423);
-        let d_inv_1 = R::of(1.0) / m_1_2.neg_mul_add(u_1_2, R::of(1.6669791666666667) + c2);
-        let v_over_d_1_2_neg = u_1_2 * d_inv_1;
-        let v_over_d_1_2 = -v_over_d_1_2_neg;
-        let m_inv_2_2 = u_1_2.mul_add(v_over_d_1_2_neg, R::of(2.9985944088708423));
-        [[d_inv_1, v_over_d_1_2], [v_over_d_1_2, m_inv_2_2]]
+        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t2 = t1 * R::of(2.9985944088708423);
+        let t3 = R::of(1.0) / t1.neg_mul_add(t2, R::of(1.6669791666666667) + c2);
+        let t4 = t2 * t3;
+        let t5 = -t4;
+        [[t3, t5], [t5, t2.mul_add(t4, R::of(2.9985944088708423))]]
     }
-    /// Dynamic manipulability `w_D = √det((JM⁻¹)(JM⁻¹)ᵀ)` over the task's rows of J (Eq. 15).
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: w_D over the task's rows of J (Eq. 15), and det(JJᵀ) over them.
+    /// w_D over the task's rows of J (Eq. 15), and det(JJᵀ) over them.
     ///
     /// Operations: 67, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 7e-12.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `rx_i, ry_i, rz_i`: from joint i's origin to the tool point, m
-    /// - `j_x_i ... j_rz_i`: column i of J: rows x, y, z (velocity) and rx, ry, rz (angular velocity)
-    /// - `m_i_j`: entry of the mass matrix M
-    /// - `d_inv_i`: 1 / `d_i`
-    /// - `u_i_j`: entry of U in M = U D Uᵀ
-    /// - `h_r_j`: entry of H = JM⁻¹, r counting the task's rows in the order in which they are made orthogonal
-    /// - `e_r_j, e_r_j_pk_s`: entry of H's row r less its parts along those before; in the k-th pass, after that along row s
-    /// - `ee_r`: squared length of `e_r`
-    /// - `ee_inv_r`: 1 / `ee_r`
-    /// - `mu_r_s, mu_r_s_pk`: share of `e_s` in row r of H; what the k-th pass finds of it
-    /// - `je_r_j`: entry of J's row r less its parts along those before
-    /// - `jee_r`: squared length of `je_r`
-    /// - `jmu_r_s`: share of `je_s` in row r of J
-    /// - `w_d`: the dynamic manipulability w_D
-    /// - `det_jjt`: det(JJᵀ) over the task's rows
     #[inline(always)]
-    fn dynamic_manipulability_kernel<R: ::ulna::Real>(&self, q: &[R; 2]) -> (R, R) {
+    fn dynamic_manipulability_kernel<R: ::ulna::Real>(q: &[R; 2]) -> (R, R) {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let rx_1 = R::of(1.0) + c2;
-        let j_y_1 = c12.mul_add(rx_1, s12 * s2);
-        let j_x_1_neg = c12.neg_mul_add(s2, s12 * rx_1);
-        let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let u_1_2 = m_1_2 * R::of(2.9985944088708423);
-        let d_inv_1 = R::of(1.0) / m_1_2.neg_mul_add(u_1_2, R::of(1.6669791666666667) + c2);
-        let h_1_1 = d_inv_1 * s12.mul_sub(u_1_2, j_x_1_neg);
-        let h_1_2_neg = s12.mul_add(R::of(2.9985944088708423), u_1_2 * h_1_1);
-        let h_2_1 = d_inv_1 * c12.neg_mul_add(u_1_2, j_y_1);
-        let h_2_2 = u_1_2.neg_mul_add(h_2_1, c12 * R::of(2.9985944088708423));
-        let ee_1 = h_1_1.mul_add(h_1_1, h_1_2_neg * h_1_2_neg);
-        let ee_inv_1 = R::of(1.0) / ee_1;
-        let mu_2_1_p1 = h_1_2_neg.neg_mul_add(h_2_2, h_1_1 * h_2_1) * ee_inv_1;
-        let e_2_1_p1_1 = h_1_1.neg_mul_add(mu_2_1_p1, h_2_1);
-        let e_2_2_p1_1 = h_1_2_neg.mul_add(mu_2_1_p1, h_2_2);
-        let mu_2_1_p2 = ee_inv_1 * h_1_2_neg.neg_mul_add(e_2_2_p1_1, h_1_1 * e_2_1_p1_1);
-        let e_2_1 = h_1_1.neg_mul_add(mu_2_1_p2, e_2_1_p1_1);
-        let e_2_2 = h_1_2_neg.mul_add(mu_2_1_p2, e_2_2_p1_1);
-        let jee_1 = j_x_1_neg.mul_add(j_x_1_neg, s12 * s12);
-        let jmu_2_1_neg = j_y_1.mul_add(j_x_1_neg, s12 * c12) * (R::of(1.0) / jee_1);
-        let je_2_1 = j_x_1_neg.neg_mul_add(jmu_2_1_neg, j_y_1);
-        let je_2_2 = s12.neg_mul_add(jmu_2_1_neg, c12);
-        let w_d = (ee_1 * e_2_1.mul_add(e_2_1, e_2_2 * e_2_2)).sqrt();
-        let det_jjt = jee_1 * je_2_1.mul_add(je_2_1, je_2_2 * je_2_2);
-        (w_d, det_jjt)
+        let t1 = R::of(1.0) + c2;
+        let t2 = c12.mul_add(t1, s12 * s2);
+        let t3 = c12.neg_mul_add(s2, s12 * t1);
+        let t4 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t5 = t4 * R::of(2.9985944088708423);
+        let t6 = R::of(1.0) / t4.neg_mul_add(t5, R::of(1.6669791666666667) + c2);
+        let t7 = t6 * s12.mul_sub(t5, t3);
+        let t8 = s12.mul_add(R::of(2.9985944088708423), t5 * t7);
+        let t9 = t6 * c12.neg_mul_add(t5, t2);
+        let t10 = t5.neg_mul_add(t9, c12 * R::of(2.9985944088708423));
+        let t11 = t7.mul_add(t7, t8 * t8);
+        let t12 = R::of(1.0) / t11;
+        let t13 = t8.neg_mul_add(t10, t7 * t9) * t12;
+        let t14 = t7.neg_mul_add(t13, t9);
+        let t15 = t8.mul_add(t13, t10);
+        let t16 = t12 * t8.neg_mul_add(t15, t7 * t14);
+        let t17 = t7.neg_mul_add(t16, t14);
+        let t18 = t8.mul_add(t16, t15);
+        let t19 = t3.mul_add(t3, s12 * s12);
+        let t20 = t2.mul_add(t3, s12 * c12) * (R::of(1.0) / t19);
+        let t21 = t3.neg_mul_add(t20, t2);
+        let t22 = s12.neg_mul_add(t20, c12);
+        ((t11 * t17.mul_add(t17, t18 * t18)).sqrt(), t19 * t21.mul_add(t21, t22 * t22))
     }
-    /// w_D and its gradient ∇w_D (Eq. 22–27).
-    ///
-    /// Where w_D is 0, Eq. 23 has no value; the gradient returned there is the zero vector. [`ulna::arm::singular`] says where that is.
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: w_D, ∇w_D (Eq. 22–27), and det(JJᵀ) over the task's rows.
+    /// w_D, ∇w_D (Eq. 22–27), and det(JJᵀ) over the task's rows.
     ///
     /// Operations: 125, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 7e-12.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `rx_i, ry_i, rz_i`: from joint i's origin to the tool point, m
-    /// - `j_x_i ... j_rz_i`: column i of J: rows x, y, z (velocity) and rx, ry, rz (angular velocity)
-    /// - `m_i_j`: entry of the mass matrix M
-    /// - `d_inv_i`: 1 / `d_i`
-    /// - `u_i_j`: entry of U in M = U D Uᵀ
-    /// - `h_r_j`: entry of H = JM⁻¹, r counting the task's rows in the order in which they are made orthogonal
-    /// - `e_r_j, e_r_j_pk_s`: entry of H's row r less its parts along those before; in the k-th pass, after that along row s
-    /// - `ee_r`: squared length of `e_r`
-    /// - `ee_inv_r`: 1 / `ee_r`
-    /// - `mu_r_s, mu_r_s_pk`: share of `e_s` in row r of H; what the k-th pass finds of it
-    /// - `ed_r_j`: entry of (HHᵀ)⁻¹H
-    /// - `w_r_j`: entry of W = (HHᵀ)⁻¹HM⁻¹
-    /// - `je_r_j`: entry of J's row r less its parts along those before
-    /// - `jee_r`: squared length of `je_r`
-    /// - `jmu_r_s`: share of `je_s` in row r of J
-    /// - `w_d`: the dynamic manipulability w_D
-    /// - `det_jjt`: det(JJᵀ) over the task's rows
-    /// - `dw_i`: ∂w_D/∂q_i
-    /// - `x_bar`: adjoint of x: ∂ln w_D/∂x
     #[inline(always)]
     fn dynamic_manipulability_gradient_kernel<R: ::ulna::Real>(
-        &self,
         q: &[R; 2],
     ) -> (R, [R; 2], R) {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let rx_1 = R::of(1.0) + c2;
-        let j_y_1 = c12.mul_add(rx_1, s12 * s2);
-        let j_x_1_neg = c12.neg_mul_add(s2, s12 * rx_1);
-        let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let u_1_2 = m_1_2 * R::of(2.9985944088708423);
-        let d_inv_1 = R::of(1.0) / m_1_2.neg_mul_add(u_1_2, R::of(1.6669791666666667) + c2);
-        let h_1_1 = d_inv_1 * s12.mul_sub(u_1_2, j_x_1_neg);
-        let h_1_2_neg = s12.mul_add(R::of(2.9985944088708423), u_1_2 * h_1_1);
-        let h_2_1 = d_inv_1 * c12.neg_mul_add(u_1_2, j_y_1);
-        let h_2_2 = u_1_2.neg_mul_add(h_2_1, c12 * R::of(2.9985944088708423));
-        let ee_1 = h_1_1.mul_add(h_1_1, h_1_2_neg * h_1_2_neg);
-        let ee_inv_1 = R::of(1.0) / ee_1;
-        let mu_2_1_p1 = h_1_2_neg.neg_mul_add(h_2_2, h_1_1 * h_2_1) * ee_inv_1;
-        let e_2_1_p1_1 = h_1_1.neg_mul_add(mu_2_1_p1, h_2_1);
-        let e_2_2_p1_1 = h_1_2_neg.mul_add(mu_2_1_p1, h_2_2);
-        let mu_2_1_p2 = ee_inv_1 * h_1_2_neg.neg_mul_add(e_2_2_p1_1, h_1_1 * e_2_1_p1_1);
-        let e_2_1 = h_1_1.neg_mul_add(mu_2_1_p2, e_2_1_p1_1);
-        let e_2_2 = h_1_2_neg.mul_add(mu_2_1_p2, e_2_2_p1_1);
-        let mu_2_1 = mu_2_1_p1 + mu_2_1_p2;
-        let ee_2 = e_2_1.mul_add(e_2_1, e_2_2 * e_2_2);
-        let w_d = (ee_1 * ee_2).sqrt();
-        let ee_inv_2 = R::of(1.0) / ee_2;
-        let ed_2_1 = e_2_1 * ee_inv_2;
-        let ed_2_2 = e_2_2 * ee_inv_2;
-        let ed_1_2_neg = h_1_2_neg.mul_add(ee_inv_1, mu_2_1 * ed_2_2);
-        let w_1_1 = d_inv_1
-            * u_1_2.mul_add(ed_1_2_neg, mu_2_1.neg_mul_add(ed_2_1, h_1_1 * ee_inv_1));
-        let w_1_2_neg = ed_1_2_neg.mul_add(R::of(2.9985944088708423), u_1_2 * w_1_1);
-        let w_2_1 = d_inv_1 * u_1_2.neg_mul_add(ed_2_2, ed_2_1);
-        let w_2_2 = u_1_2.neg_mul_add(w_2_1, R::of(2.9985944088708423) * ed_2_2);
-        let m_1_2_bar_neg = h_1_1.neg_mul_add(w_1_2_neg, h_2_1 * w_2_2)
-            + h_1_2_neg.neg_mul_add(w_1_1, h_2_2 * w_2_1);
-        let t1 = s12.neg_mul_add(w_1_1, c12 * w_2_1)
-            - m_1_2_bar_neg.mul_add(R::of(0.5), h_1_1.mul_add(w_1_1, h_2_1 * w_2_1));
-        let angle_1_2_bar = s12.neg_mul_add(
-            rx_1.mul_add(w_2_1, s2.mul_add(w_1_1, w_2_2)),
-            c12 * s2.mul_add(w_2_1, rx_1.neg_mul_add(w_1_1, w_1_2_neg)),
-        );
-        let angle_2_bar = s2.neg_mul_add(t1, c2 * c12.mul_add(w_1_1, s12 * w_2_1));
-        let jee_1 = j_x_1_neg.mul_add(j_x_1_neg, s12 * s12);
-        let jmu_2_1_neg = j_y_1.mul_add(j_x_1_neg, s12 * c12) * (R::of(1.0) / jee_1);
-        let je_2_1 = j_x_1_neg.neg_mul_add(jmu_2_1_neg, j_y_1);
-        let je_2_2 = s12.neg_mul_add(jmu_2_1_neg, c12);
-        let dw_1 = w_d * angle_1_2_bar;
-        let dw_2 = w_d * (angle_1_2_bar + angle_2_bar);
-        let det_jjt = jee_1 * je_2_1.mul_add(je_2_1, je_2_2 * je_2_2);
-        (w_d, [dw_1, dw_2], det_jjt)
+        let t1 = R::of(1.0) + c2;
+        let t2 = c12.mul_add(t1, s12 * s2);
+        let t3 = c12.neg_mul_add(s2, s12 * t1);
+        let t4 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t5 = t4 * R::of(2.9985944088708423);
+        let t6 = R::of(1.0) / t4.neg_mul_add(t5, R::of(1.6669791666666667) + c2);
+        let t7 = t6 * s12.mul_sub(t5, t3);
+        let t8 = s12.mul_add(R::of(2.9985944088708423), t5 * t7);
+        let t9 = t6 * c12.neg_mul_add(t5, t2);
+        let t10 = t5.neg_mul_add(t9, c12 * R::of(2.9985944088708423));
+        let t11 = t7.mul_add(t7, t8 * t8);
+        let t12 = R::of(1.0) / t11;
+        let t13 = t8.neg_mul_add(t10, t7 * t9) * t12;
+        let t14 = t7.neg_mul_add(t13, t9);
+        let t15 = t8.mul_add(t13, t10);
+        let t16 = t12 * t8.neg_mul_add(t15, t7 * t14);
+        let t17 = t7.neg_mul_add(t16, t14);
+        let t18 = t8.mul_add(t16, t15);
+        let t19 = t13 + t16;
+        let t20 = t17.mul_add(t17, t18 * t18);
+        let t21 = (t11 * t20).sqrt();
+        let t22 = R::of(1.0) / t20;
+        let t23 = t17 * t22;
+        let t24 = t18 * t22;
+        let t25 = t8.mul_add(t12, t19 * t24);
+        let t26 = t6 * t5.mul_add(t25, t19.neg_mul_add(t23, t7 * t12));
+        let t27 = t25.mul_add(R::of(2.9985944088708423), t5 * t26);
+        let t28 = t6 * t5.neg_mul_add(t24, t23);
+        let t29 = t5.neg_mul_add(t28, R::of(2.9985944088708423) * t24);
+        let t30 = t7.neg_mul_add(t27, t9 * t29) + t8.neg_mul_add(t26, t10 * t28);
+        let t31 = s12.neg_mul_add(t26, c12 * t28)
+            - t30.mul_add(R::of(0.5), t7.mul_add(t26, t9 * t28));
+        let t32 = s12
+            .neg_mul_add(
+                t1.mul_add(t28, s2.mul_add(t26, t29)),
+                c12 * s2.mul_add(t28, t1.neg_mul_add(t26, t27)),
+            );
+        let t33 = s2.neg_mul_add(t31, c2 * c12.mul_add(t26, s12 * t28));
+        let t34 = t3.mul_add(t3, s12 * s12);
+        let t35 = t2.mul_add(t3, s12 * c12) * (R::of(1.0) / t34);
+        let t36 = t3.neg_mul_add(t35, t2);
+        let t37 = s12.neg_mul_add(t35, c12);
+        (t21, [t21 * t32, t21 * (t32 + t33)], t34 * t36.mul_add(t36, t37 * t37))
     }
-    /// Inverse dynamics τ = M q̈ + c(q, q̇) + g(q) + f(q̇), N·m, f the joints' friction; without a tool wrench.
-    ///
-    /// Of `q` joint coordinates, rad (m), `qd` their rates, rad/s (m/s), `qdd` their accelerations, rad/s² (m/s²).
-    /// Returns: Joint torques, N·m, for the accelerations `qdd`.
+    /// Joint torques, N·m, for the accelerations `qdd`.
     ///
     /// Operations: 27, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 2e-14.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `wx_i, wy_i, wz_i`: angular velocity of link i, rad/s
-    /// - `alx_i, aly_i, alz_i`: angular acceleration of link i, rad/s²
-    /// - `ax_i ..., ax_i_before ...`: acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before
-    /// - `fx_own_i ..., nx_own_i ...`: force and moment that link i's own motion takes, N and N·m
-    /// - `nx_i, ny_i, nz_i`: moment on link i from the link before, about joint i's origin, N·m
     #[inline(always)]
     fn inverse_dynamics_kernel<R: ::ulna::Real>(
-        &self,
         q: &[R; 2],
         qd: &[R; 2],
         qdd: &[R; 2],
     ) -> [R; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let ay_1 = c12 * R::of(9.81);
-        let alz_2 = qdd[0] + qdd[1];
-        let wz_2 = qd[0] + qd[1];
-        let nz_own_2 = alz_2.mul_add(
-            R::of(0.3334895833333333),
-            R::of(0.5) * (ay_1 + c2.mul_add(qdd[0], s2 * (qd[0] * qd[0]))),
-        );
-        let t1 = s2.neg_mul_add(R::of(0.5) * (wz_2 * wz_2), c2 * (R::of(0.5) * alz_2));
-        let t2 = ay_1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        let nz_1_z = nz_own_2 + t1 + qdd[0].mul_add(R::of(1.3334895833333333), t2);
-        [nz_1_z, nz_own_2]
+        let t1 = c12 * R::of(9.81);
+        let t2 = qdd[0] + qdd[1];
+        let t3 = qd[0] + qd[1];
+        let t4 = t2
+            .mul_add(
+                R::of(0.3334895833333333),
+                R::of(0.5) * (t1 + c2.mul_add(qdd[0], s2 * (qd[0] * qd[0]))),
+            );
+        let t5 = s2.neg_mul_add(R::of(0.5) * (t3 * t3), c2 * (R::of(0.5) * t2));
+        let t6 = t1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
+        [t4 + t5 + qdd[0].mul_add(R::of(1.3334895833333333), t6), t4]
     }
-    /// Bias force c(q, q̇) + g(q): the inverse dynamics at q̈ = 0, without friction.
-    ///
-    /// Of `q` joint coordinates, rad (m), `qd` their rates, rad/s (m/s).
-    /// Returns: Joint torques, N·m, at zero acceleration.
+    /// Joint torques, N·m, at zero acceleration.
     ///
     /// Operations: 17, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 2e-14.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `wx_i, wy_i, wz_i`: angular velocity of link i, rad/s
-    /// - `ax_i ..., ax_i_before ...`: acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before
-    /// - `fx_own_i ..., nx_own_i ...`: force and moment that link i's own motion takes, N and N·m
-    /// - `nx_i, ny_i, nz_i`: moment on link i from the link before, about joint i's origin, N·m
     #[inline(always)]
-    fn bias_force_kernel<R: ::ulna::Real>(&self, q: &[R; 2], qd: &[R; 2]) -> [R; 2] {
+    fn bias_force_kernel<R: ::ulna::Real>(q: &[R; 2], qd: &[R; 2]) -> [R; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let ay_1 = c12 * R::of(9.81);
-        let wz_2 = qd[0] + qd[1];
-        let nz_own_2 = R::of(0.5) * s2.mul_add(qd[0] * qd[0], ay_1);
-        let nz_own_1 = ay_1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        let nz_1_z = s2.neg_mul_add(R::of(0.5) * (wz_2 * wz_2), nz_own_2) + nz_own_1;
-        [nz_1_z, nz_own_2]
+        let t1 = c12 * R::of(9.81);
+        let t2 = qd[0] + qd[1];
+        let t3 = R::of(0.5) * s2.mul_add(qd[0] * qd[0], t1);
+        let t4 = t1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
+        [s2.neg_mul_add(R::of(0.5) * (t2 * t2), t3) + t4, t3]
     }
-    /// Gravity torque g(q): the inverse dynamics at q̇ = 0, q̈ = 0.
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: Joint torques, N·m, at rest.
+    /// Joint torques, N·m, at rest.
     ///
     /// Operations: 9, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 2e-14.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `fx_own_i ..., nx_own_i ...`: force and moment that link i's own motion takes, N and N·m
-    /// - `nx_i, ny_i, nz_i`: moment on link i from the link before, about joint i's origin, N·m
     #[inline(always)]
-    fn gravity_torque_kernel<R: ::ulna::Real>(&self, q: &[R; 2]) -> [R; 2] {
+    fn gravity_torque_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [R; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let nz_own_2 = c12 * R::of(4.905);
-        let nz_own_1 = (c12 * R::of(9.81))
+        let t1 = c12 * R::of(4.905);
+        let t2 = (c12 * R::of(9.81))
             .mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        let nz_1_z = nz_own_2 + nz_own_1;
-        [nz_1_z, nz_own_2]
+        [t1 + t2, t1]
     }
-    /// Forward dynamics q̈ = M⁻¹(τ − c(q, q̇) − g(q) − f(q̇)), f the joints' friction; without a tool wrench.
-    ///
-    /// Of `q` joint coordinates, rad (m), `qd` their rates, rad/s (m/s), `tau` joint torques, N·m (N).
-    /// Returns: Joint accelerations, rad/s², under the torques `tau`.
+    /// Joint accelerations, rad/s², under the torques `tau`.
     ///
     /// Operations: 32, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 2e-14.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `m_i_j`: entry of the mass matrix M
-    /// - `u_i_j`: entry of U in M = U D Uᵀ
-    /// - `wx_i, wy_i, wz_i`: angular velocity of link i, rad/s
-    /// - `ax_i ..., ax_i_before ...`: acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before
-    /// - `fx_own_i ..., nx_own_i ...`: force and moment that link i's own motion takes, N and N·m
-    /// - `net_i`: what is left of `tau` to accelerate joint i, N·m
-    /// - `qdd_i`: acceleration of joint i, rad/s²
     #[inline(always)]
     fn forward_dynamics_kernel<R: ::ulna::Real>(
-        &self,
         q: &[R; 2],
         qd: &[R; 2],
         tau: &[R; 2],
     ) -> [R; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let ay_1 = c12 * R::of(9.81);
-        let wz_2 = qd[0] + qd[1];
-        let nz_own_2 = R::of(0.5) * s2.mul_add(qd[0] * qd[0], ay_1);
-        let nz_own_1 = ay_1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        let net_1 = tau[0] - (s2.neg_mul_add(R::of(0.5) * (wz_2 * wz_2), nz_own_2) + nz_own_1);
-        let net_2 = tau[1] - nz_own_2;
-        let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let u_1_2 = m_1_2 * R::of(2.9985944088708423);
-        let qdd_1 = R::of(1.0) / m_1_2.neg_mul_add(u_1_2, R::of(1.6669791666666667) + c2)
-            * net_2.neg_mul_add(u_1_2, net_1);
-        let qdd_2 = u_1_2.neg_mul_add(qdd_1, net_2 * R::of(2.9985944088708423));
-        [qdd_1, qdd_2]
+        let t1 = c12 * R::of(9.81);
+        let t2 = qd[0] + qd[1];
+        let t3 = R::of(0.5) * s2.mul_add(qd[0] * qd[0], t1);
+        let t4 = t1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
+        let t5 = tau[0] - (s2.neg_mul_add(R::of(0.5) * (t2 * t2), t3) + t4);
+        let t6 = tau[1] - t3;
+        let t7 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t8 = t7 * R::of(2.9985944088708423);
+        let t9 = R::of(1.0) / t7.neg_mul_add(t8, R::of(1.6669791666666667) + c2)
+            * t6.neg_mul_add(t8, t5);
+        [t9, t8.neg_mul_add(t9, t6 * R::of(2.9985944088708423))]
     }
-    /// Inverse dynamics with a wrench: τ = M q̈ + c(q, q̇) + g(q) + f(q̇) − Jᵀ F, N·m.
+    /// Joint impact torques, N×N, N·m: column k if joint k locks, before minus after.
     ///
-    /// F = `[f; n]` is what the environment exerts on the tool, at the tool point, in world axes, N and N·m.
-    ///
-    /// Of `q` joint coordinates, rad (m), `qd` their rates, rad/s (m/s), `qdd` their accelerations, rad/s² (m/s²), `wrench` wrench on the tool, `[f; n]`, N and N·m.
-    /// Returns: Joint torques, N·m, for the accelerations `qdd` under the wrench `[f; n]` on the tool, in world axes at the tool point.
-    ///
-    /// Operations: 37, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-14.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `wx_i, wy_i, wz_i`: angular velocity of link i, rad/s
-    /// - `alx_i, aly_i, alz_i`: angular acceleration of link i, rad/s²
-    /// - `ax_i ..., ax_i_before ...`: acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before
-    /// - `fx_own_i ..., nx_own_i ...`: force and moment that link i's own motion takes, N and N·m
-    /// - `fx_i, fy_i, fz_i`: force on link i from the link before, N
-    /// - `nx_i, ny_i, nz_i`: moment on link i from the link before, about joint i's origin, N·m
-    /// - `tau_i`: torque of joint i, N·m
+    /// Operations: 19, and sine and cosine of 1 angles.
+    /// Rounding error of the worst entry, relative to the largest: 2e-15.
     #[inline(always)]
-    fn inverse_dynamics_with_wrench_kernel<R: ::ulna::Real>(
-        &self,
+    fn lock_impacts_kernel<R: ::ulna::Real>(
         q: &[R; 2],
         qd: &[R; 2],
         qdd: &[R; 2],
-        wrench: &[R; 6],
-    ) -> [R; 2] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = c12.neg_mul_add(wrench[1], s12 * wrench[0]);
-        let ay_1 = c12 * R::of(9.81);
-        let alz_2 = qdd[0] + qdd[1];
-        let wz_2 = qd[0] + qd[1];
-        let nz_own_2 = alz_2.mul_add(
-            R::of(0.3334895833333333),
-            R::of(0.5) * (ay_1 + c2.mul_add(qdd[0], s2 * (qd[0] * qd[0]))),
-        );
-        let fx_2_neg = (wz_2 * wz_2).mul_add(R::of(0.5), c12.mul_add(wrench[0], s12 * wrench[1]));
-        let tau_2 = t1 - wrench[5] + nz_own_2;
-        let t2 = tau_2 + s2.neg_mul_add(fx_2_neg, c2 * alz_2.mul_add(R::of(0.5), t1));
-        let t3 = ay_1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        let nz_1_z = t2 + qdd[0].mul_add(R::of(1.3334895833333333), t3);
-        [nz_1_z, tau_2]
+    ) -> [[R; 2]; 2] {
+        let ([s2], [c2]) = R::sin_cos_all([q[1]]);
+        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t2 = s2 * (qd[0] * qd[1]);
+        let t3 = (R::of(0.5) * s2).neg_mul_add(qd[1] * qd[1], t1 * qdd[1]) - t2;
+        [
+            [
+                (R::of(1.6669791666666667) + c2).mul_sub(qdd[0], t2),
+                t1.mul_add(qdd[0], s2 * (R::of(0.5) * (qd[0] * qd[0]))),
+            ],
+            [t3, R::of(0.3334895833333333) * qdd[1]],
+        ]
     }
-    /// Forward dynamics with a wrench: q̈ = M⁻¹(τ + Jᵀ F − c(q, q̇) − g(q) − f(q̇)).
-    ///
-    /// F = `[f; n]` is what the environment exerts on the tool, at the tool point, in world axes, N and N·m.
-    ///
-    /// Of `q` joint coordinates, rad (m), `qd` their rates, rad/s (m/s), `tau` joint torques, N·m (N), `wrench` wrench on the tool, `[f; n]`, N and N·m.
-    /// Returns: Joint accelerations, rad/s², under the torques `tau` and the wrench `[f; n]` on the tool, in world axes at the tool point.
-    ///
-    /// Operations: 43, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-14.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `m_i_j`: entry of the mass matrix M
-    /// - `u_i_j`: entry of U in M = U D Uᵀ
-    /// - `wx_i, wy_i, wz_i`: angular velocity of link i, rad/s
-    /// - `ax_i ..., ax_i_before ...`: acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before
-    /// - `fx_own_i ..., nx_own_i ...`: force and moment that link i's own motion takes, N and N·m
-    /// - `fx_i, fy_i, fz_i`: force on link i from the link before, N
-    /// - `bias_i`: torque of joint i at zero acceleration, N·m
-    /// - `net_i`: what is left of `tau` to accelerate joint i, N·m
-    /// - `qdd_i`: acceleration of joint i, rad/s²
-    #[inline(always)]
-    fn forward_dynamics_with_wrench_kernel<R: ::ulna::Real>(
-        &self,
-        q: &[R; 2],
-        qd: &[R; 2],
-        tau: &[R; 2],
-        wrench: &[R; 6],
-    ) -> [R; 2] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let fy_2 = c12.neg_mul_add(wrench[1], s12 * wrench[0]);
-        let ay_1 = c12 * R::of(9.81);
-        let wz_2 = qd[0] + qd[1];
-        let fx_2_neg = (wz_2 * wz_2).mul_add(R::of(0.5), c12.mul_add(wrench[0], s12 * wrench[1]));
-        let bias_2 = s2.mul_add(qd[0] * qd[0], ay_1).mul_add(R::of(0.5), fy_2 - wrench[5]);
-        let nz_own_1 = ay_1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        let net_1 = tau[0] - (bias_2 + s2.neg_mul_add(fx_2_neg, c2 * fy_2) + nz_own_1);
-        let net_2 = tau[1] - bias_2;
-        let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let u_1_2 = m_1_2 * R::of(2.9985944088708423);
-        let qdd_1 = R::of(1.0) / m_1_2.neg_mul_add(u_1_2, R::of(1.6669791666666667) + c2)
-            * net_2.neg_mul_add(u_1_2, net_1);
-        let qdd_2 = u_1_2.neg_mul_add(qdd_1, net_2 * R::of(2.9985944088708423));
-        [qdd_1, qdd_2]
-    }
-    /// Friction torque f(q̇), N·m: `viscous · q̇_i + coulomb · q̇_i / √(q̇_i² + smoothing²)` of each joint's [`Friction`](ulna::Friction).
-    ///
-    /// Inverse and forward dynamics have it in them, and nothing else has.
-    ///
-    /// Of `qd` their rates, rad/s (m/s).
-    /// Returns: Joint torques, N·m, that friction takes at the rates `qd`.
-    ///
-    /// Operations: 0, and sine and cosine of 0 angles.
-    /// Rounding error of the worst entry, relative to the largest: 0.
-    #[inline(always)]
-    fn friction_torque_kernel<R: ::ulna::Real>(&self, _qd: &[R; 2]) -> [R; 2] {
-        [R::of(0.0), R::of(0.0)]
-    }
-    /// M and all ∂M/∂q_i in one call.
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: Mass matrix, and its derivatives by each joint.
+    /// Mass matrix, and its derivatives by each joint.
     ///
     /// Operations: 6, and sine and cosine of 1 angles.
     /// Rounding error of the worst entry, relative to the largest: 2e-15.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `m_i_j`: entry of the mass matrix M
-    /// - `dm_i_j_k`: ∂/∂q_i of `m_j_k`
     #[inline(always)]
     fn mass_matrix_and_derivatives_kernel<R: ::ulna::Real>(
-        &self,
         q: &[R; 2],
     ) -> ([[R; 2]; 2], [[[R; 2]; 2]; 2]) {
         let ([s2], [c2]) = R::sin_cos_all([q[1]]);
-        let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let dm_2_1_2 = -(R::of(0.5) * s2);
-        let m_1_1 = R::of(1.6669791666666667) + c2;
+        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t2 = -(R::of(0.5) * s2);
         (
-            [[m_1_1, m_1_2], [m_1_2, R::of(0.3334895833333333)]],
+            [[R::of(1.6669791666666667) + c2, t1], [t1, R::of(0.3334895833333333)]],
             [
                 [[R::of(0.0), R::of(0.0)], [R::of(0.0), R::of(0.0)]],
-                [[-s2, dm_2_1_2], [dm_2_1_2, R::of(0.0)]],
+                [[-s2, t2], [t2, R::of(0.0)]],
             ],
         )
     }
-    /// J (six rows), w_D and ∇w_D in one call: what a cycle of the suppression controller needs.
-    ///
-    /// Of `q` joint coordinates, rad (m).
-    /// Returns: Geometric Jacobian, w_D, ∇w_D, and det(JJᵀ) over the task's rows.
+    /// Geometric Jacobian, w_D, ∇w_D, and det(JJᵀ) over the task's rows.
     ///
     /// Operations: 127, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 7e-12.
-    ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
-    /// - `rx_i, ry_i, rz_i`: from joint i's origin to the tool point, m
-    /// - `j_x_i ... j_rz_i`: column i of J: rows x, y, z (velocity) and rx, ry, rz (angular velocity)
-    /// - `m_i_j`: entry of the mass matrix M
-    /// - `d_inv_i`: 1 / `d_i`
-    /// - `u_i_j`: entry of U in M = U D Uᵀ
-    /// - `h_r_j`: entry of H = JM⁻¹, r counting the task's rows in the order in which they are made orthogonal
-    /// - `e_r_j, e_r_j_pk_s`: entry of H's row r less its parts along those before; in the k-th pass, after that along row s
-    /// - `ee_r`: squared length of `e_r`
-    /// - `ee_inv_r`: 1 / `ee_r`
-    /// - `mu_r_s, mu_r_s_pk`: share of `e_s` in row r of H; what the k-th pass finds of it
-    /// - `ed_r_j`: entry of (HHᵀ)⁻¹H
-    /// - `w_r_j`: entry of W = (HHᵀ)⁻¹HM⁻¹
-    /// - `je_r_j`: entry of J's row r less its parts along those before
-    /// - `jee_r`: squared length of `je_r`
-    /// - `jmu_r_s`: share of `je_s` in row r of J
-    /// - `w_d`: the dynamic manipulability w_D
-    /// - `det_jjt`: det(JJᵀ) over the task's rows
-    /// - `dw_i`: ∂w_D/∂q_i
-    /// - `x_bar`: adjoint of x: ∂ln w_D/∂x
     #[inline(always)]
     fn jacobian_and_gradient_kernel<R: ::ulna::Real>(
-        &self,
         q: &[R; 2],
     ) -> ([[R; 6]; 2], R, [R; 2], R) {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let rx_1 = R::of(1.0) + c2;
-        let j_y_1 = c12.mul_add(rx_1, s12 * s2);
-        let j_x_1_neg = c12.neg_mul_add(s2, s12 * rx_1);
-        let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let u_1_2 = m_1_2 * R::of(2.9985944088708423);
-        let d_inv_1 = R::of(1.0) / m_1_2.neg_mul_add(u_1_2, R::of(1.6669791666666667) + c2);
-        let h_1_1 = d_inv_1 * s12.mul_sub(u_1_2, j_x_1_neg);
-        let h_1_2_neg = s12.mul_add(R::of(2.9985944088708423), u_1_2 * h_1_1);
-        let h_2_1 = d_inv_1 * c12.neg_mul_add(u_1_2, j_y_1);
-        let h_2_2 = u_1_2.neg_mul_add(h_2_1, c12 * R::of(2.9985944088708423));
-        let ee_1 = h_1_1.mul_add(h_1_1, h_1_2_neg * h_1_2_neg);
-        let ee_inv_1 = R::of(1.0) / ee_1;
-        let mu_2_1_p1 = h_1_2_neg.neg_mul_add(h_2_2, h_1_1 * h_2_1) * ee_inv_1;
-        let e_2_1_p1_1 = h_1_1.neg_mul_add(mu_2_1_p1, h_2_1);
-        let e_2_2_p1_1 = h_1_2_neg.mul_add(mu_2_1_p1, h_2_2);
-        let mu_2_1_p2 = ee_inv_1 * h_1_2_neg.neg_mul_add(e_2_2_p1_1, h_1_1 * e_2_1_p1_1);
-        let e_2_1 = h_1_1.neg_mul_add(mu_2_1_p2, e_2_1_p1_1);
-        let e_2_2 = h_1_2_neg.mul_add(mu_2_1_p2, e_2_2_p1_1);
-        let mu_2_1 = mu_2_1_p1 + mu_2_1_p2;
-        let ee_2 = e_2_1.mul_add(e_2_1, e_2_2 * e_2_2);
-        let w_d = (ee_1 * ee_2).sqrt();
-        let ee_inv_2 = R::of(1.0) / ee_2;
-        let ed_2_1 = e_2_1 * ee_inv_2;
-        let ed_2_2 = e_2_2 * ee_inv_2;
-        let ed_1_2_neg = h_1_2_neg.mul_add(ee_inv_1, mu_2_1 * ed_2_2);
-        let w_1_1 = d_inv_1
-            * u_1_2.mul_add(ed_1_2_neg, mu_2_1.neg_mul_add(ed_2_1, h_1_1 * ee_inv_1));
-        let w_1_2_neg = ed_1_2_neg.mul_add(R::of(2.9985944088708423), u_1_2 * w_1_1);
-        let w_2_1 = d_inv_1 * u_1_2.neg_mul_add(ed_2_2, ed_2_1);
-        let w_2_2 = u_1_2.neg_mul_add(w_2_1, R::of(2.9985944088708423) * ed_2_2);
-        let m_1_2_bar_neg = h_1_1.neg_mul_add(w_1_2_neg, h_2_1 * w_2_2)
-            + h_1_2_neg.neg_mul_add(w_1_1, h_2_2 * w_2_1);
-        let t1 = s12.neg_mul_add(w_1_1, c12 * w_2_1)
-            - m_1_2_bar_neg.mul_add(R::of(0.5), h_1_1.mul_add(w_1_1, h_2_1 * w_2_1));
-        let angle_1_2_bar = s12.neg_mul_add(
-            rx_1.mul_add(w_2_1, s2.mul_add(w_1_1, w_2_2)),
-            c12 * s2.mul_add(w_2_1, rx_1.neg_mul_add(w_1_1, w_1_2_neg)),
-        );
-        let angle_2_bar = s2.neg_mul_add(t1, c2 * c12.mul_add(w_1_1, s12 * w_2_1));
-        let jee_1 = j_x_1_neg.mul_add(j_x_1_neg, s12 * s12);
-        let jmu_2_1_neg = j_y_1.mul_add(j_x_1_neg, s12 * c12) * (R::of(1.0) / jee_1);
-        let je_2_1 = j_x_1_neg.neg_mul_add(jmu_2_1_neg, j_y_1);
-        let je_2_2 = s12.neg_mul_add(jmu_2_1_neg, c12);
-        let dw_1 = w_d * angle_1_2_bar;
-        let dw_2 = w_d * (angle_1_2_bar + angle_2_bar);
-        let det_jjt = jee_1 * je_2_1.mul_add(je_2_1, je_2_2 * je_2_2);
+        let t1 = R::of(1.0) + c2;
+        let t2 = c12.mul_add(t1, s12 * s2);
+        let t3 = c12.neg_mul_add(s2, s12 * t1);
+        let t4 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let t5 = t4 * R::of(2.9985944088708423);
+        let t6 = R::of(1.0) / t4.neg_mul_add(t5, R::of(1.6669791666666667) + c2);
+        let t7 = t6 * s12.mul_sub(t5, t3);
+        let t8 = s12.mul_add(R::of(2.9985944088708423), t5 * t7);
+        let t9 = t6 * c12.neg_mul_add(t5, t2);
+        let t10 = t5.neg_mul_add(t9, c12 * R::of(2.9985944088708423));
+        let t11 = t7.mul_add(t7, t8 * t8);
+        let t12 = R::of(1.0) / t11;
+        let t13 = t8.neg_mul_add(t10, t7 * t9) * t12;
+        let t14 = t7.neg_mul_add(t13, t9);
+        let t15 = t8.mul_add(t13, t10);
+        let t16 = t12 * t8.neg_mul_add(t15, t7 * t14);
+        let t17 = t7.neg_mul_add(t16, t14);
+        let t18 = t8.mul_add(t16, t15);
+        let t19 = t13 + t16;
+        let t20 = t17.mul_add(t17, t18 * t18);
+        let t21 = (t11 * t20).sqrt();
+        let t22 = R::of(1.0) / t20;
+        let t23 = t17 * t22;
+        let t24 = t18 * t22;
+        let t25 = t8.mul_add(t12, t19 * t24);
+        let t26 = t6 * t5.mul_add(t25, t19.neg_mul_add(t23, t7 * t12));
+        let t27 = t25.mul_add(R::of(2.9985944088708423), t5 * t26);
+        let t28 = t6 * t5.neg_mul_add(t24, t23);
+        let t29 = t5.neg_mul_add(t28, R::of(2.9985944088708423) * t24);
+        let t30 = t7.neg_mul_add(t27, t9 * t29) + t8.neg_mul_add(t26, t10 * t28);
+        let t31 = s12.neg_mul_add(t26, c12 * t28)
+            - t30.mul_add(R::of(0.5), t7.mul_add(t26, t9 * t28));
+        let t32 = s12
+            .neg_mul_add(
+                t1.mul_add(t28, s2.mul_add(t26, t29)),
+                c12 * s2.mul_add(t28, t1.neg_mul_add(t26, t27)),
+            );
+        let t33 = s2.neg_mul_add(t31, c2 * c12.mul_add(t26, s12 * t28));
+        let t34 = t3.mul_add(t3, s12 * s12);
+        let t35 = t2.mul_add(t3, s12 * c12) * (R::of(1.0) / t34);
+        let t36 = t3.neg_mul_add(t35, t2);
+        let t37 = s12.neg_mul_add(t35, c12);
         (
             [
-                [-j_x_1_neg, j_y_1, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
+                [-t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
                 [-s12, c12, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
             ],
-            w_d,
-            [dw_1, dw_2],
-            det_jjt,
+            t21,
+            [t21 * t32, t21 * (t32 + t33)],
+            t34 * t36.mul_add(t36, t37 * t37),
         )
+    }
+    /// Regressor, N×10 for each link: torques, N·m, of its unit parameters m, m·c (x, y, z), I (xx, xy, xz, yy, yz, zz).
+    ///
+    /// Operations: 25, and sine and cosine of 2 angles.
+    /// Rounding error of the worst entry, relative to the largest: 3e-15.
+    #[inline(always)]
+    fn regressor_kernel<R: ::ulna::Real>(
+        q: &[R; 2],
+        qd: &[R; 2],
+        qdd: &[R; 2],
+    ) -> [[[R; 2]; 10]; 2] {
+        let ([s1, s2], [c1, c2]) = R::sin_cos_all([q[0], q[1]]);
+        let t1 = R::of(9.81) * s1;
+        let t2 = R::of(9.81) * c1;
+        let t3 = qd[0].neg_mul_add(qd[0], t1);
+        let t4 = qdd[0] + t2;
+        let t5 = c2.mul_add(t3, s2 * t4);
+        let t6 = s2.neg_mul_add(t3, c2 * t4);
+        let t7 = qdd[0] + qdd[1];
+        let t8 = qd[0] + qd[1];
+        let t9 = t8 * t8;
+        [
+            [
+                [R::of(0.0), R::of(0.0)],
+                [t2, R::of(0.0)],
+                [-t1, R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [qdd[0], R::of(0.0)],
+            ],
+            [
+                [t4, R::of(0.0)],
+                [t6 + s2.neg_mul_add(t9, c2 * t7), t6],
+                [-(t5 + s2.mul_add(t7, c2 * t9)), -t5],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [t7, t7],
+            ],
+        ]
+    }
+    /// The regressor's columns of base parameters, N×10 for each link; all others are 0.
+    ///
+    /// Operations: 25, and sine and cosine of 2 angles.
+    /// Rounding error of the worst entry, relative to the largest: 3e-15.
+    #[inline(always)]
+    fn base_regressor_kernel<R: ::ulna::Real>(
+        q: &[R; 2],
+        qd: &[R; 2],
+        qdd: &[R; 2],
+    ) -> [[[R; 2]; 10]; 2] {
+        let ([s1, s2], [c1, c2]) = R::sin_cos_all([q[0], q[1]]);
+        let t1 = R::of(9.81) * s1;
+        let t2 = R::of(9.81) * c1;
+        let t3 = qd[0].neg_mul_add(qd[0], t1);
+        let t4 = qdd[0] + t2;
+        let t5 = c2.mul_add(t3, s2 * t4);
+        let t6 = s2.neg_mul_add(t3, c2 * t4);
+        let t7 = qdd[0] + qdd[1];
+        let t8 = qd[0] + qd[1];
+        let t9 = t8 * t8;
+        [
+            [
+                [R::of(0.0), R::of(0.0)],
+                [t2, R::of(0.0)],
+                [-t1, R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [qdd[0], R::of(0.0)],
+            ],
+            [
+                [R::of(0.0), R::of(0.0)],
+                [t6 + s2.neg_mul_add(t9, c2 * t7), t6],
+                [-(t5 + s2.mul_add(t7, c2 * t9)), -t5],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [R::of(0.0), R::of(0.0)],
+                [t7, t7],
+            ],
+        ]
     }
 }
 ::ulna::implement_arm!(Planar2r, 2);
@@ -714,8 +550,7 @@ mod planar_2r_proof {
     /// Every method against the textbook formulas, at random states.
     #[test]
     fn generated_code_agrees_with_the_textbook() {
-        let arm = super::Planar2r;
-        let chain = ::ulna::Unrolled::chain(&arm);
+        let (arm, chain) = (super::Planar2r, super::Planar2r::CHAIN);
         let states = ::ulna::proof::states(&chain).take(20);
         let report = ::ulna::proof::compare(&arm, &chain, states);
         assert!(report.passes(), "{report}");

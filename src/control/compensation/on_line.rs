@@ -48,7 +48,8 @@ pub enum Weighting {
 /// The on-line law: before each lock the U that leaves the least of the step, in the mean over the joints at risk (the equations stand
 /// at the module's head); after it [`recourse`](Self::recourse), the torque nearest to that before.
 ///
-/// It needs no plan, no failure time and no search: one cycle's state, and N + 1 inverse dynamics. The static tool force is kept exactly.
+/// It needs no plan, no failure time and no search: one cycle's state, and what each joint's lock would do in it ([`Arm::lock_impacts`]).
+/// The static tool force is kept exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OnLine<const N: usize> {
     /// `w_k`: how much each joint is at risk, e.g. its probability to lock; what is not above 0 and finite is no risk.
@@ -107,15 +108,21 @@ impl<const N: usize> OnLine<N> {
             return SVector::zeros();
         }
         let state = locked.hold(state);
-        let torque = arm.inverse_dynamics(&state.q, &state.qd, &state.qdd);
+        let at_risk = locked.healthy().filter(|joint| {
+            let weight = self.weights[*joint];
+            weight > 0.0 && weight.is_finite()
+        });
+        // For one joint alone two inverse dynamics are less.
+        let several = at_risk.clone().nth(1).is_some();
+        let impacts = several.then(|| arm.lock_impacts(&state.q, &state.qd, &state.qdd));
         let mut risks = [Risk::none(); N];
-        for joint in locked.healthy() {
-            let weight = self.weights[joint];
-            if weight > 0.0 && weight.is_finite() {
-                let next = hold_one(&state, joint);
-                let step = arm.inverse_dynamics(&next.q, &next.qd, &next.qdd) - torque;
-                risks[joint] = Risk::new(joint, weight, &locked.without(&step), pose);
-            }
+        for joint in at_risk {
+            // Δτ is before minus after, and the step after minus before.
+            let step = match &impacts {
+                Some(impacts) => -impacts.column(joint),
+                None => -impact(arm, &state, joint),
+            };
+            risks[joint] = Risk::new(joint, self.weights[joint], &locked.without(&step), pose);
         }
         if let Weighting::Relative { floor } = self.weighting {
             make_relative(&mut risks, floor);
@@ -242,12 +249,18 @@ impl<const N: usize> Risk<N> {
     }
 }
 
-/// `state` with one joint more at rest.
-fn hold_one<const N: usize>(state: &JointState<N>, joint: usize) -> JointState<N> {
+/// Δτ of a lock of `joint`: its column of [`Arm::lock_impacts`].
+#[inline]
+fn impact<const N: usize>(
+    arm: &(impl Arm<N> + ?Sized),
+    state: &JointState<N>,
+    joint: usize,
+) -> SVector<f64, N> {
     let mut held = *state;
     held.qd[joint] = 0.0;
     held.qdd[joint] = 0.0;
-    held
+    arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
+        - arm.inverse_dynamics(&held.q, &held.qd, &held.qdd)
 }
 
 /// [`Weighting::Relative`].

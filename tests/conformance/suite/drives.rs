@@ -15,6 +15,27 @@ fn bare<const N: usize>(chain: &SerialChain<N>) -> SerialChain<N> {
     bare
 }
 
+/// What of the inverse dynamics is not the links': the rotors' and friction's share, N·m (N).
+pub(super) fn torque_of_drives<const N: usize>(
+    chain: &SerialChain<N>,
+    qd: &SVector<f64, N>,
+    qdd: &SVector<f64, N>,
+) -> SVector<f64, N> {
+    rotors(chain).component_mul(qdd) + friction(chain, qd)
+}
+
+/// Friction's closed form.
+fn friction<const N: usize>(chain: &SerialChain<N>, qd: &SVector<f64, N>) -> SVector<f64, N> {
+    SVector::from_fn(|i, _| {
+        let Friction {
+            viscous,
+            coulomb,
+            smoothing,
+        } = chain.joints[i].friction;
+        viscous * qd[i] + coulomb * qd[i] / qd[i].hypot(smoothing)
+    })
+}
+
 fn rotors<const N: usize>(chain: &SerialChain<N>) -> SVector<f64, N> {
     SVector::from_fn(|i, _| {
         let Motor { inertia, ratio } = chain.joints[i].motor;
@@ -56,14 +77,7 @@ pub(crate) fn friction_is_its_closed_form<const N: usize>(
     at_states(chain, |State { qd, .. }| {
         for size in [1e-4, 1.0, 1e3, 1e100] {
             let qd = qd * size;
-            let expected = SVector::<f64, N>::from_fn(|i, _| {
-                let Friction {
-                    viscous,
-                    coulomb,
-                    smoothing,
-                } = chain.joints[i].friction;
-                viscous * qd[i] + coulomb * qd[i] / qd[i].hypot(smoothing)
-            });
+            let expected = friction(chain, &qd);
             let found = arm.friction_torque(&qd);
             near(&found, &expected, 0.0, 1e-14, "friction");
             assert!(found.component_mul(&qd).min() >= 0.0, "it takes power");

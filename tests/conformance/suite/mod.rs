@@ -10,8 +10,10 @@ mod exponentials;
 pub(crate) mod drives;
 pub(crate) mod dynamics;
 pub(crate) mod kinematics;
+pub(crate) mod lock;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
+pub(crate) mod regressor;
 pub(crate) mod totality;
 
 use ulna::SerialChain;
@@ -39,10 +41,19 @@ macro_rules! conformance {
             drives::rotors_add_to_the_diagonal_of_the_mass_matrix
             drives::friction_is_its_closed_form
             drives::nothing_else_sees_rotors_and_friction
+            lock::lock_impacts_are_those_of_the_papers_recursion
+            lock::lock_impacts_are_differences_of_inverse_dynamics
+            lock::a_lock_of_a_joint_at_rest_changes_nothing
+            lock::lock_impacts_have_the_parts_of_inverse_dynamics
             manipulability::manipulability_is_that_of_its_own_jacobian_and_mass_matrix
             manipulability::manipulability_gradient_agrees_with_differences
             manipulability::manipulability_agrees_with_dual_numbers
             manipulability::manipulability_ignores_a_turn_of_the_whole_task
+            regressor::regressor_times_parameters_is_the_torque
+            regressor::regressor_has_the_mass_matrix_in_it
+            regressor::regressor_is_zero_below_its_link
+            regressor::base_columns_are_those_of_the_regressor_and_are_independent
+            regressor::base_columns_are_enough_for_every_torque
             totality::single_and_combined_methods_agree
             totality::any_finite_configuration_gives_numbers
             totality::a_full_turn_changes_nothing
