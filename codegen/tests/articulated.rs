@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ulna::{JointKind, Method};
+use ulna::{JointKind, Method, Payload};
 use ulna_codegen::internal::{Arguments, Chain, Choices, Graph, Scalar, formulate, schedule};
 use ulna_codegen::{DoubleDouble, Program};
 use ulna_table::Model;
@@ -21,7 +21,7 @@ fn gradient(model: &Model, articulated: bool) -> Program {
 fn run<R: Scalar>(program: &Program, q: &[f64]) -> Vec<f64> {
     let arguments = Arguments {
         q,
-        payload: &[0.0; 10],
+        payload: &[0.0; Payload::PARAMETERS],
         ..Arguments::default()
     };
     R::run(program, arguments)
@@ -79,9 +79,21 @@ fn articulated_bodies_lead_to_the_same_gradient() {
 /// A wrist of dummy links with a heavy hand: beside the pose where its first and last axes are one line, M loses the first link.
 #[test]
 fn light_links_that_carry_a_heavy_one_keep_their_digits() {
+    keep_their_digits("");
+}
+
+/// A rotor holds a share of what its joint takes off, however small it is, and costs no digit.
+#[test]
+fn light_rotors_keep_their_digits_too() {
+    for inertia in [1e-12, 1e-9] {
+        keep_their_digits(&format!("motor = {{ inertia = {inertia:?} }}\n"));
+    }
+}
+
+fn keep_their_digits(motor: &str) {
     let joint = |theta: f64, alpha: f64, mass: f64, inertia: f64| {
         format!(
-            "[[joint]]\ntheta = {theta}\nd = 0.0\na = 0.0\nalpha = {alpha}\n[joint.link]\nmass = {mass}\n\
+            "[[joint]]\n{motor}theta = {theta}\nd = 0.0\na = 0.0\nalpha = {alpha}\n[joint.link]\nmass = {mass}\n\
              com = [0.0, 0.0, 0.0]\ninertia = {{ xx = {inertia:?}, yy = {inertia:?}, zz = {inertia:?} }}\n"
         )
     };

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use ulna::Limits;
+use ulna::nalgebra::SVector;
+use ulna::{JointLimits, Limits, PositionLimits};
 use ulna_study::Scenario;
 use ulna_study::scenario::{KnownArm, MotionPath, ScenarioErrors};
 use ulna_table::{Description, Model};
@@ -110,4 +111,28 @@ fn rotors_are_counted_once() {
         "{errors}"
     );
     parse(&twice, |_| ()).unwrap();
+}
+
+#[test]
+fn limits_of_a_chain_are_those_of_its_table() {
+    let chain = ulna_generated::Geared6::CHAIN;
+    let (rates, range) = (JointLimits::of(&chain), PositionLimits::of(&chain));
+    let velocity = [110_f64.to_radians(), 0.5, 120_f64.to_radians()];
+    assert_eq!(rates.velocity.as_slice()[..3], velocity);
+    assert_eq!(rates.acceleration.amin(), f64::INFINITY);
+    let wrist_has_none = (range.lower[5], range.upper[5]);
+    assert_eq!(wrist_has_none, (f64::NEG_INFINITY, f64::INFINITY));
+
+    let mut q = SVector::from([0.0, 0.7, 0.0, 0.0, 0.0, 1e6]);
+    assert_eq!(range.admit(&q, 0.0), Ok(()));
+    assert_eq!(PositionLimits::none().admit(&(q * 1e9), 0.0), Ok(()));
+    (q[0], q[1]) = (3.0, 0.8);
+    let error = range.admit(&q, 2.5).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "joint 2 would be at 0.800000 rad (m) at 2.500 s; its limits are -0.200000 and 0.700000"
+    );
+    q[3] = f64::NAN;
+    let error = range.admit(&q, 2.5).unwrap_err().to_string();
+    assert!(error.starts_with("joint 4 would be at NaN"), "{error}");
 }

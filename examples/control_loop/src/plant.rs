@@ -75,7 +75,8 @@ impl<'a> Plant<'a> {
         let mut given = SVector::zeros();
         given[brake.joint] = brake.deceleration;
         let mass_matrix = self.arm.mass_matrix(q);
-        let free = torque - self.arm.bias_force(q, qd) - mass_matrix * given;
+        let bias = self.arm.bias_force(q, qd) + self.arm.friction_torque(qd);
+        let free = torque - bias - mass_matrix * given;
         let reduced = locked.reduce_mass_matrix(&mass_matrix);
         match reduced.cholesky() {
             Some(factor) => locked.without(&factor.solve(&locked.without(&free))) + given,
