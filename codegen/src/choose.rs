@@ -83,7 +83,12 @@ fn fewest_operations_at(model: &Model) -> usize {
             meeting: *meeting,
             ..Choices::default()
         };
-        let program = compile_method(model, Method::InverseDynamicsDerivatives, choices);
+        let program = compile_on(
+            &Graph::without_labels(),
+            model,
+            Method::InverseDynamicsDerivatives,
+            choices,
+        );
         program.steps.len()
     };
     (joints / 2..joints).min_by_key(operations).unwrap_or(0)

@@ -4,7 +4,7 @@
 //! With S_i the unit twist of joint i, v_i and a_i the velocity and the acceleration of its link, and
 //!
 //! - Ψ̇_i = v_i × S_i, how the twist is carried along, and Ψ̈_i = a_i × S_i + v_i × Ψ̇_i;
-//! - I_i, [C_i](super::coriolis) and f_i of all links from i on as one body: its inertia, what its velocities do to a twist besides,
+//! - I_i, [C_i](super::velocity_products) and f_i of all links from i on as one body: its inertia, what its velocities do to a twist besides,
 //!   and the wrench that its motion takes,
 //!
 //! the derivatives are, for j ≤ i:
@@ -22,13 +22,13 @@
 use ulna::JointKind;
 
 use super::chain::Chain;
-use super::coriolis::Coriolis;
 use super::friction::friction_slope;
 use super::inverse_dynamics::{Motion, Wrench, inward, outward, unloaded};
 use super::kinematics::Twist;
 use super::mass_matrix::{Momentum, Station, stations};
 use super::mass_matrix_derivatives::{momentum_of, twists_at_joints};
 use super::vector::Vec3;
+use super::velocity_products::Coriolis;
 use crate::graph::Expr;
 
 /// A matrix, by rows.

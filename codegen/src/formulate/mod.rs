@@ -6,7 +6,6 @@
 pub(crate) mod articulated;
 pub(crate) mod body;
 pub(crate) mod chain;
-mod coriolis;
 pub(crate) mod factorization;
 pub(crate) mod forward_dynamics_derivatives;
 pub(crate) mod friction;
@@ -22,6 +21,7 @@ mod matrix;
 pub(crate) mod regressor;
 pub(crate) mod task;
 pub(crate) mod vector;
+mod velocity_products;
 
 use ulna::{Method, Parameter, TaskRow};
 
