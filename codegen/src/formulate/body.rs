@@ -22,26 +22,30 @@ pub struct Body<'g> {
 ///
 /// What a revolute joint's turning cannot change (mass, first moment along the axis, and as much of the inertia
 /// as is round about it) is counted with the link before; likewise the whole inertia tensor behind a prismatic joint.
-/// M and τ stay the same, and many constants become zero. What reaches the base is dropped.
-pub(crate) fn base_parameters<'g>(graph: &'g Graph, model: &Model) -> Vec<Body<'g>> {
+/// M and τ stay the same, and many constants become zero. What reaches the base, which neither feels, is the second result,
+/// about the base's origin.
+pub(crate) fn base_parameters<'g>(graph: &'g Graph, model: &Model) -> (Vec<Body<'g>>, Body<'g>) {
     let links = model.joints().iter().map(|joint| &joint.link);
     let mut bodies: Vec<Body<'g>> = links.map(|link| Body::of_link(graph, link)).collect();
+    let mut ground = Body::none(graph);
     for (i, joint) in model.joints().iter().enumerate().rev() {
         let passed = indifferent_part(joint, &bodies[i]);
         bodies[i] = bodies[i].join(passed.scale(graph.constant(-1.0)));
-        if i > 0 {
-            let (alpha, theta) = (
-                Turn::by_angle(graph, joint.alpha),
-                Turn::by_angle(graph, joint.theta),
-            );
-            let zero = graph.constant(0.0);
-            let along = Vec3([zero, zero, graph.constant(joint.d)]);
-            let origin = Vec3([graph.constant(joint.a), zero, zero]) + along.turn_x(alpha);
-            let passed = passed.turn_z(theta).turn_x(alpha).shift(origin);
-            bodies[i - 1] = bodies[i - 1].join(passed);
-        }
+        let (alpha, theta) = (
+            Turn::by_angle(graph, joint.alpha),
+            Turn::by_angle(graph, joint.theta),
+        );
+        let zero = graph.constant(0.0);
+        let along = Vec3([zero, zero, graph.constant(joint.d)]);
+        let origin = Vec3([graph.constant(joint.a), zero, zero]) + along.turn_x(alpha);
+        let passed = passed.turn_z(theta).turn_x(alpha).shift(origin);
+        let before = match i {
+            0 => &mut ground,
+            _ => &mut bodies[i - 1],
+        };
+        *before = before.join(passed);
     }
-    bodies
+    (bodies, ground)
 }
 
 /// The part of a link's parameters that looks the same from the link before however the joint stands.
@@ -65,6 +69,16 @@ fn indifferent_part<'g>(joint: &Joint, body: &Body<'g>) -> Body<'g> {
 }
 
 impl<'g> Body<'g> {
+    /// Nothing.
+    fn none(graph: &'g Graph) -> Self {
+        let zero = graph.constant(0.0);
+        Self {
+            mass: zero,
+            moment: Vec3([zero; 3]),
+            inertia: Sym3([zero; 6]),
+        }
+    }
+
     /// A link's parameters.
     pub fn of_link(graph: &'g Graph, link: &Link) -> Self {
         let zero = graph.constant(0.0);

@@ -23,6 +23,10 @@ pub struct ChainJoint<'g> {
     /// From the origin of the joint before to this one's: in this group's axes or, for the first of a group,
     /// in the axes of the group before (of the base for the very first).
     pub offset: Vec3<'g>,
+    /// `a` of its row: from the origin before along x of the frame before, m.
+    pub across: Expr<'g>,
+    /// `d` of its row, with the coordinate of a prismatic joint: on from there along the joint's axis, m.
+    pub along: Expr<'g>,
     /// The turn that takes a vector of the joint's own frame to the group's axes.
     pub group_from_own: Turn<'g>,
     /// The link's inertial constants, regrouped ([`base_parameters`]), in its own frame.
@@ -67,6 +71,8 @@ pub struct Chain<'g> {
     pub base: Placement,
     /// `frame_N_from_tool`.
     pub tool: Placement,
+    /// What of the links' constants has been regrouped to the base, about its origin: no motion changes it.
+    pub ground: Body<'g>,
     /// Gravity in base axes, m/s².
     pub gravity: Vec3<'g>,
     /// The rows of J in w_D.
@@ -76,7 +82,7 @@ pub struct Chain<'g> {
 impl<'g> Chain<'g> {
     /// Lays the model out on the graph.
     pub fn new(graph: &'g Graph, model: &Model) -> Self {
-        let bodies = base_parameters(graph, model);
+        let (bodies, ground) = base_parameters(graph, model);
         let groups: Vec<Group<'g>> = parallel_runs(model)
             .into_iter()
             .map(|joints| Group {
@@ -91,6 +97,8 @@ impl<'g> Chain<'g> {
             .map(|(group, i)| ChainJoint {
                 kind: model.joints()[i].kind,
                 offset: offset(graph, model, group, i),
+                across: graph.constant(model.joints()[i].a),
+                along: along(graph, model, i),
                 group_from_own: sum_of_angles(graph, model, i + 1..group.joints.end).inverse(),
                 body: bodies[i],
                 link: Body::of_link(graph, &model.joints()[i].link),
@@ -103,6 +111,7 @@ impl<'g> Chain<'g> {
             groups,
             base: *model.base(),
             tool: *model.tool(),
+            ground,
             gravity: Vec3::constant(graph, model.gravity()).rotate(std::array::from_fn(|j| {
                 std::array::from_fn(|i| world_from_base[i][j])
             })),
@@ -154,12 +163,17 @@ fn parallel_runs(model: &Model) -> Vec<Range<usize>> {
     runs
 }
 
-fn offset<'g>(graph: &'g Graph, model: &Model, group: &Group<'g>, i: usize) -> Vec3<'g> {
+fn along<'g>(graph: &'g Graph, model: &Model, i: usize) -> Expr<'g> {
     let joint = &model.joints()[i];
-    let along = match joint.kind {
+    match joint.kind {
         JointKind::Revolute => graph.constant(joint.d),
         JointKind::Prismatic => graph.constant(joint.d) + graph.input(Input::Q(i)),
-    };
+    }
+}
+
+fn offset<'g>(graph: &'g Graph, model: &Model, group: &Group<'g>, i: usize) -> Vec3<'g> {
+    let joint = &model.joints()[i];
+    let along = along(graph, model, i);
     let zero = graph.constant(0.0);
     let across = Vec3([graph.constant(joint.a), zero, zero]);
     let along = Vec3([zero, zero, along]);

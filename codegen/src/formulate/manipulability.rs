@@ -168,18 +168,30 @@ pub(crate) fn squared_lengths<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Vec
 }
 
 /// Rows made orthogonal one after another: row s = reduced s + Σ_r coefficient(s, r) · reduced r, over r < s.
-struct Orthogonal<'g> {
+pub(super) struct Orthogonal<'g> {
     reduced: Vec<Row<'g>>,
+    /// The same times the weights of the product.
+    weighted: Vec<Row<'g>>,
     /// Squared lengths of the reduced rows.
-    pivots: Vec<Expr<'g>>,
+    pub(super) pivots: Vec<Expr<'g>>,
     /// For each row and each before it, the coefficient.
     shares: Vec<Vec<Expr<'g>>>,
 }
 
 /// The modified Gram–Schmidt process, each row going through it `passes` times.
-fn orthogonalise<'g>(rows: &[Row<'g>], passes: usize) -> Orthogonal<'g> {
+pub(super) fn orthogonalise<'g>(rows: &[Row<'g>], passes: usize) -> Orthogonal<'g> {
+    orthogonalise_in(rows, None, passes)
+}
+
+/// The same in the product Σ x_i y_i `weights`_i.
+pub(super) fn orthogonalise_in<'g>(
+    rows: &[Row<'g>],
+    weights: Option<&[Expr<'g>]>,
+    passes: usize,
+) -> Orthogonal<'g> {
     let mut basis = Orthogonal {
         reduced: Vec::new(),
+        weighted: Vec::new(),
         pivots: Vec::new(),
         shares: Vec::new(),
     };
@@ -187,17 +199,22 @@ fn orthogonalise<'g>(rows: &[Row<'g>], passes: usize) -> Orthogonal<'g> {
         let mut reduced = row.clone();
         let mut shares: Vec<Expr<'g>> = Vec::new();
         for _ in 0..passes {
-            for (r, (other, pivot)) in basis.reduced.iter().zip(&basis.pivots).enumerate() {
-                let inner = dot(&reduced, other);
+            for (r, pivot) in basis.pivots.iter().enumerate() {
+                let inner = dot(&reduced, &basis.weighted[r]);
                 let coefficient = inner * (inner.of(1.0) / *pivot);
-                subtract(&mut reduced, coefficient, other);
+                subtract(&mut reduced, coefficient, &basis.reduced[r]);
                 match shares.get_mut(r) {
                     Some(share) => *share = *share + coefficient,
                     None => shares.push(coefficient),
                 }
             }
         }
-        basis.pivots.push(dot(&reduced, &reduced));
+        let weighted = match weights {
+            Some(weights) => reduced.iter().zip(weights).map(|(x, w)| *x * *w).collect(),
+            None => reduced.clone(),
+        };
+        basis.pivots.push(dot(&reduced, &weighted));
+        basis.weighted.push(weighted);
         basis.reduced.push(reduced);
         basis.shares.push(shares);
     }
@@ -205,13 +222,34 @@ fn orthogonalise<'g>(rows: &[Row<'g>], passes: usize) -> Orthogonal<'g> {
 }
 
 impl<'g> Orthogonal<'g> {
+    /// One over a reduced row's squared length.
+    pub(super) fn inverse_pivot(&self, row: usize) -> Expr<'g> {
+        let pivot = self.pivots[row];
+        pivot.of(1.0) / pivot
+    }
+
+    /// The inverse of the unit lower triangular matrix that makes the rows of the reduced ones.
+    pub(super) fn inverse_shares(&self) -> Vec<Row<'g>> {
+        let (zero, one) = (self.pivots[0].of(0.0), self.pivots[0].of(1.0));
+        let mut inverse = vec![vec![zero; self.pivots.len()]; self.pivots.len()];
+        for (s, shares) in self.shares.iter().enumerate() {
+            inverse[s][s] = one;
+            for column in 0..s {
+                let terms = (column..s).map(|r| shares[r] * inverse[r][column]);
+                let total = terms.fold(zero, |sum, x| sum + x);
+                inverse[s][column] = -total;
+            }
+        }
+        inverse
+    }
+
     /// G⁻¹H: the rows' dual basis.
-    fn duals(&self) -> Vec<Row<'g>> {
+    pub(super) fn duals(&self) -> Vec<Row<'g>> {
         let scaled = |(row, pivot): (&Row<'g>, &Expr<'g>)| {
             let inverse = pivot.of(1.0) / *pivot;
             row.iter().map(|x| *x * inverse).collect()
         };
-        let mut duals: Vec<Row<'g>> = self.reduced.iter().zip(&self.pivots).map(scaled).collect();
+        let mut duals: Vec<Row<'g>> = self.weighted.iter().zip(&self.pivots).map(scaled).collect();
         for s in (0..duals.len()).rev() {
             let dual = duals[s].clone();
             for (r, coefficient) in self.shares[s].iter().enumerate() {
@@ -236,7 +274,7 @@ fn dot<'g>(a: &Row<'g>, b: &Row<'g>) -> Expr<'g> {
     sum(a.iter().zip(b).map(|(x, y)| *x * *y)).unwrap_or(a[0])
 }
 
-fn product<'g>(factors: &[Expr<'g>]) -> Expr<'g> {
+pub(super) fn product<'g>(factors: &[Expr<'g>]) -> Expr<'g> {
     factors
         .iter()
         .copied()
