@@ -5,6 +5,7 @@
 
 mod dynamics;
 mod manipulability;
+mod motion;
 
 use nalgebra::{SMatrix, SVector};
 use serde::Deserialize;
@@ -132,6 +133,11 @@ macro_rules! both {
         #[test]
         fn manipulability() {
             crate::manipulability::agrees($backend, $name, &$arm);
+        }
+
+        #[test]
+        fn motion() {
+            crate::motion::agrees($backend, $name, &$arm);
         }
     };
 }
