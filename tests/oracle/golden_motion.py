@@ -13,7 +13,7 @@ Writes data/<arm>.motion.jsonl beside this file: one configuration a line, with
     task_space_inertia      the upper triangle over the task's rows
     consistent_inverse      over the task's columns, row by row
     w, gradient             root of det(J J') over the task's rows, and its gradient
-The rate of J itself stands in data/<arm>.jsonl. Numbers have 14 digits.
+The rate of J itself stands in data/<arm>.jsonl. Numbers have 16 digits.
 
 Christoffel's symbols are put together from Pinocchio's derivatives of M. What it has for a Coriolis matrix itself need not be made of
 them, of all matrices with the same product with qd; it is, and printed is to how many digits.
@@ -98,7 +98,7 @@ def by_mpmath(arm, q):
 
 def rounded(value):
     if np.ndim(value) == 0:
-        return float(f"{float(value):.14g}")
+        return float(f"{float(value):.16g}")
     return [rounded(x) for x in value]
 
 

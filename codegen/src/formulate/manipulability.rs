@@ -231,14 +231,15 @@ impl<'g> Orthogonal<'g> {
     /// The inverse of the unit lower triangular matrix that makes the rows of the reduced ones.
     pub(super) fn inverse_shares(&self) -> Vec<Row<'g>> {
         let (zero, one) = (self.pivots[0].of(0.0), self.pivots[0].of(1.0));
-        let mut inverse = vec![vec![zero; self.pivots.len()]; self.pivots.len()];
+        let mut inverse: Vec<Row<'g>> = Vec::new();
         for (s, shares) in self.shares.iter().enumerate() {
-            inverse[s][s] = one;
-            for column in 0..s {
+            let below = (0..s).map(|column| {
                 let terms = (column..s).map(|r| shares[r] * inverse[r][column]);
-                let total = terms.fold(zero, |sum, x| sum + x);
-                inverse[s][column] = -total;
-            }
+                -terms.fold(zero, |sum, x| sum + x)
+            });
+            let mut row: Row<'g> = below.chain([one]).collect();
+            row.resize(self.shares.len(), zero);
+            inverse.push(row);
         }
         inverse
     }
