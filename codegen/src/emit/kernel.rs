@@ -45,10 +45,13 @@ pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
     };
     let doc = documentation(compiled).map(|line| quote!(#[doc = #line]));
     let angles = angles(&writer, &program.angles);
-    let named = writer.named();
+    let mut named = writer.named();
     let (body, value) = if parts::is_long(named.len()) {
         (parts::parts(&writer, compiled, &named, joints), quote!())
     } else {
+        // A result that is a number, and the last to get a name, needs none.
+        let last = named.pop_if(|(name, _)| *name == value.to_string());
+        let value = last.map_or(value, |(_, expression)| expression);
         (statements(&named), value)
     };
     quote! {

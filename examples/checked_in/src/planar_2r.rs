@@ -533,12 +533,11 @@ impl ::ulna::Unrolled<2> for Planar2r {
     fn kinetic_energy_kernel<R: ::ulna::Real>(q: &[R; 2], qd: &[R; 2]) -> R {
         let ([_], [c2]) = R::sin_cos_all([q[1]]);
         let t1 = qd[0] + qd[1];
-        let t2 = qd[0]
+        qd[0]
             .mul_add(
                 qd[0] * R::of(0.6667447916666667),
                 t1 * t1.mul_add(R::of(0.16674479166666664), R::of(0.5) * (c2 * qd[0])),
-            );
-        t2
+            )
     }
     /// Potential energy, J: 0 at the world's origin.
     ///
