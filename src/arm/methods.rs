@@ -23,7 +23,7 @@
 /// ```
 ///
 /// - An argument is one of those of [`Argument`].
-/// - A kernel's matrix is an array of its columns. `zero from k`, for methods of w_D: the kernel returns det(JJᵀ) over the
+/// - A kernel's matrix is an array of its columns. `zero from k`, for methods of a task: the kernel returns det(JJᵀ) over the
 ///   task's rows after all else, and where [that counts as 0](crate::arm::singular) the parts of the result from k on are 0.
 /// - A batch runs in lanes where a register holds `width` doubles or more: measured, see [`ArmBatch`](crate::ArmBatch).
 /// - The rule tells how large an error may be; it is a method of the judge in [`proof`](crate::proof).
@@ -221,6 +221,83 @@ macro_rules! methods {
               base_regressor_kernel -> [[[R; $n]; 10]; $n] }
             { batch base_regressor_batch from 4 }
             { error base_regressor }
+
+            /// Where the links are: `world_from_link_i`, one pose for each link, base first; frame i is that of modified DH, whose z is joint i's axis.
+            LinkPoses = link_poses(q) -> [$crate::nalgebra::IsometryMatrix3<f64>; $n]
+            { kernel "`world_from_link_i` for each i: the rotation's columns, then the translation in m."
+              link_poses_kernel -> [[[R; 3]; 4]; $n] }
+            { batch link_poses_batch from 4 }
+            { error poses }
+
+            /// Geometric Jacobian of each link at the origin of its frame, 6×N in world axes: `[v_i; ω_i] = J_i q̇`. Columns of joints beyond the link are 0.
+            LinkJacobians = link_jacobians(q) -> [$crate::nalgebra::SMatrix<f64, 6, $n>; $n]
+            { kernel "Geometric Jacobian of link i at its frame's origin, 6×N for each i: columns `[v; ω]` in world axes."
+              link_jacobians_kernel -> [[[R; 6]; $n]; $n] }
+            { batch link_jacobians_batch from 4 }
+            { error twists_of_links }
+
+            /// Centre of mass of all links, m, in world axes from the world's origin.
+            CenterOfMass = center_of_mass(q) -> $crate::nalgebra::Vector3<f64>
+            { kernel "Centre of mass of all links, m, world axes."
+              center_of_mass_kernel -> [R; 3] }
+            { batch center_of_mass_batch from 2 }
+            { error centroid }
+
+            /// J̇, 6×N: the rate of the geometric Jacobian while the joints move, at the tool point, which moves with them.
+            JacobianRate = jacobian_rate(q, qd) -> $crate::nalgebra::SMatrix<f64, 6, $n>
+            { kernel "J̇, 6×N: columns `[v̇; ω̇]` in world axes, at the tool point."
+              jacobian_rate_kernel -> [[R; 6]; $n] }
+            { batch jacobian_rate_batch from 2 }
+            { error twist_rates }
+
+            /// `J̇ q̇`: the tool's acceleration `[v̇; ω̇]` while the joints move at constant rates, m/s² and rad/s², world axes.
+            BiasAcceleration = bias_acceleration(q, qd) -> $crate::nalgebra::Vector6<f64>
+            { kernel "`J̇ q̇`: `[v̇; ω̇]` in world axes, at the tool point, m/s² and rad/s²."
+              bias_acceleration_kernel -> [R; 6] }
+            { batch bias_acceleration_batch from 2 }
+            { error twist_of_rates }
+
+            /// Kinetic energy `½ q̇ᵀ M q̇`, J.
+            KineticEnergy = kinetic_energy(q, qd) -> f64
+            { kernel "Kinetic energy, J."
+              kinetic_energy_kernel -> R }
+            { batch kinetic_energy_batch from 2 }
+            { error energy_of_motion }
+
+            /// Potential energy `−Σ m_i gᵀ p_i` of the links in gravity, J; p_i are their centroids from the world's origin, where it is 0.
+            PotentialEnergy = potential_energy(q) -> f64
+            { kernel "Potential energy, J: 0 at the world's origin."
+              potential_energy_kernel -> R }
+            { batch potential_energy_batch from 2 }
+            { error energy_of_position }
+
+            /// Task-space inertia `Λ = (J M⁻¹ Jᵀ)⁻¹` over the task's rows (Khatib 1987), kg for rows of v and kg·m² for rows of ω.
+            ///
+            /// Rows and columns outside the task are 0. Where the task is [singular](crate::arm::singular), all of it is.
+            TaskSpaceInertia = task_space_inertia(q) -> $crate::nalgebra::Matrix6<f64>
+            { kernel "Λ, 6×6, 0 outside the task's rows and columns, and det(JJᵀ) over them."
+              task_space_inertia_kernel -> ([[R; 6]; 6], R), zero from 0 }
+            { batch task_space_inertia_batch from 2 }
+            { error task_inertia }
+
+            /// Dynamically consistent inverse `J̄ = M⁻¹ Jᵀ Λ` of the task's rows of J (Khatib 1987), N×6: of all joint motions with a given
+            /// tool velocity, the one of least kinetic energy; `J̄ᵀ` takes joint torques to the tool force that they make.
+            ///
+            /// Columns outside the task are 0. Where the task is [singular](crate::arm::singular), all of it is.
+            DynamicallyConsistentInverse = dynamically_consistent_inverse(q) -> $crate::nalgebra::SMatrix<f64, $n, 6>
+            { kernel "J̄, N×6, 0 outside the task's columns, and det(JJᵀ) over the task's rows."
+              dynamically_consistent_inverse_kernel -> ([[R; $n]; 6], R), zero from 0 }
+            { batch dynamically_consistent_inverse_batch from 2 }
+            { error task_inverse }
+
+            /// Kinematic manipulability `w = √det(JJᵀ)` over the task's rows of J and its gradient ∇w (Yoshikawa 1985).
+            ///
+            /// Where the task is [singular](crate::arm::singular), w is 0 and the gradient returned is the zero vector.
+            ManipulabilityGradient = manipulability_gradient(q) -> (f64, $crate::nalgebra::SVector<f64, $n>)
+            { kernel "w = √det(JJᵀ) over the task's rows, ∇w, and det(JJᵀ)."
+              manipulability_gradient_kernel -> (R, [R; $n], R), zero from 0 }
+            { batch manipulability_gradient_batch from 2 }
+            { error kinematic_gradient }
         }
     };
 }

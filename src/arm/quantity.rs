@@ -98,6 +98,29 @@ impl<const R: usize, const C: usize, const K: usize> Quantity for [SMatrix<f64, 
     }
 }
 
+impl<const K: usize> Quantity for [IsometryMatrix3<f64>; K] {
+    const PARTS: usize = 1;
+
+    fn zero() -> Self {
+        [IsometryMatrix3::zero(); K]
+    }
+
+    #[inline(always)]
+    fn zero_from(self, first: usize) -> Self {
+        if first == 0 { Self::zero() } else { self }
+    }
+
+    #[inline(always)]
+    fn part(&self, _: usize) -> &[f64] {
+        cast_slice(self)
+    }
+
+    #[inline(always)]
+    fn part_mut(&mut self, _: usize) -> &mut [f64] {
+        cast_slice_mut(self)
+    }
+}
+
 impl Quantity for IsometryMatrix3<f64> {
     const PARTS: usize = 2;
 

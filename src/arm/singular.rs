@@ -14,6 +14,9 @@
 //! sign there, falls to the zero vector. What digits are certain on the way there: rounding in J is about ε of 1, so that
 //! a volume that is v times what the lengths of its rows would span leaves a relative error of some ε / v in w_D and ∇w_D.
 //!
+//! Λ, J̄, and w with ∇w ([`Arm::task_space_inertia`](crate::Arm::task_space_inertia) and those after it) have no value there either, or no slope:
+//! they are 0 by the same rule.
+//!
 //! The controller lets go long before: see [`crate::control::compensation`]. Where w_D counts as 0 its status is
 //! [`NearSingular`](crate::Status::NearSingular), without exception.
 

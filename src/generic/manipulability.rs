@@ -27,7 +27,7 @@ impl<const N: usize> SerialChain<N> {
     /// w_D and ∇w_D. Eq. 23–26 by Jacobi's formula for the derivative of a determinant:
     /// `∂w_D/∂q_i = w_D tr(H† ∂H/∂q_i)`, which like w_D itself avoids the square of H's condition number;
     /// `∂H/∂q_i` by Eq. 27. [`super::literal`] has the equations as printed.
-    pub(super) fn manipulability_gradient(
+    pub(super) fn manipulability_and_gradient(
         &self,
         inputs: &[JointInput; N],
     ) -> (f64, SVector<f64, N>) {
@@ -52,7 +52,11 @@ impl<const N: usize> SerialChain<N> {
     }
 
     /// Whether w_D counts as 0: [`crate::arm::singular`].
-    fn counts_as_singular(&self, inputs: &[JointInput; N], jacobian: &SMatrix<f64, 6, N>) -> bool {
+    pub(super) fn counts_as_singular(
+        &self,
+        inputs: &[JointInput; N],
+        jacobian: &SMatrix<f64, 6, N>,
+    ) -> bool {
         let rows = task_columns(self.task, jacobian);
         let volume: f64 = ThinQr::new(rows, self.task.len()).heights().product();
         !volume.is_nan() && self.is_singular(&Self::offsets(inputs), volume * volume)

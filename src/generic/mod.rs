@@ -3,22 +3,28 @@
 //! Written to be read beside the books, not for speed:
 //! Siciliano, Sciavicco, Villani, Oriolo, *Robotics* (2009): Jacobian 3.1, mass matrix 7.2;
 //! Craig, *Introduction to Robotics* (3rd ed.): frames 3.4, inverse dynamics 6.5;
+//! Khatib, *A unified approach for motion and force control of robot manipulators* (1987), for Λ and its inverse of J;
 //! and the paper on joint impact torque, Eq. 15 and 22–27, for w_D and its gradient.
 
 mod base_columns;
 mod dynamics_derivatives;
+mod energy;
 mod finite_difference;
 mod friction;
+mod kinematic_manipulability;
 mod kinematics;
+mod links;
 pub mod literal;
 mod lock;
 mod manipulability;
 mod mass_matrix;
 mod newton_euler;
 mod orthogonal;
+mod rates;
 mod regressor;
+mod task_space;
 
-use nalgebra::{IsometryMatrix3, SMatrix, SVector, Vector6};
+use nalgebra::{IsometryMatrix3, Matrix6, SMatrix, SVector, Vector3, Vector6};
 
 use crate::{Arm, Joint, Placement, TaskRows};
 
@@ -91,7 +97,7 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
     }
 
     fn dynamic_manipulability_gradient(&self, q: &SVector<f64, N>) -> (f64, SVector<f64, N>) {
-        self.manipulability_gradient(&self.inputs(q))
+        self.manipulability_and_gradient(&self.inputs(q))
     }
 
     fn inverse_dynamics(
@@ -189,5 +195,45 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
         tau: &SVector<f64, N>,
     ) -> (SMatrix<f64, N, N>, SMatrix<f64, N, N>, SMatrix<f64, N, N>) {
         self.acceleration_derivatives(q, qd, tau)
+    }
+
+    fn link_poses(&self, q: &SVector<f64, N>) -> [IsometryMatrix3<f64>; N] {
+        self.link_frames(q)
+    }
+
+    fn link_jacobians(&self, q: &SVector<f64, N>) -> [SMatrix<f64, 6, N>; N] {
+        self.jacobians_at_origins(&self.inputs(q))
+    }
+
+    fn center_of_mass(&self, q: &SVector<f64, N>) -> Vector3<f64> {
+        self.first_moment(&self.inputs(q)) / self.mass()
+    }
+
+    fn jacobian_rate(&self, q: &SVector<f64, N>, qd: &SVector<f64, N>) -> SMatrix<f64, 6, N> {
+        self.rate_of_jacobian(&self.inputs(q), qd)
+    }
+
+    fn bias_acceleration(&self, q: &SVector<f64, N>, qd: &SVector<f64, N>) -> Vector6<f64> {
+        self.rate_of_jacobian(&self.inputs(q), qd) * qd
+    }
+
+    fn kinetic_energy(&self, q: &SVector<f64, N>, qd: &SVector<f64, N>) -> f64 {
+        self.energy_of_motion(&self.inputs(q), qd)
+    }
+
+    fn potential_energy(&self, q: &SVector<f64, N>) -> f64 {
+        self.energy_of_position(&self.inputs(q))
+    }
+
+    fn task_space_inertia(&self, q: &SVector<f64, N>) -> Matrix6<f64> {
+        self.task_dynamics(&self.inputs(q)).inertia
+    }
+
+    fn dynamically_consistent_inverse(&self, q: &SVector<f64, N>) -> SMatrix<f64, N, 6> {
+        self.task_dynamics(&self.inputs(q)).inverse
+    }
+
+    fn manipulability_gradient(&self, q: &SVector<f64, N>) -> (f64, SVector<f64, N>) {
+        self.volume_and_gradient(&self.inputs(q))
     }
 }

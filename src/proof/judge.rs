@@ -8,25 +8,25 @@ use super::scale::Scale;
 use super::{State, relative, rounding, worse};
 use crate::{Arm, JointKind, SerialChain};
 
-type Square<const N: usize> = SMatrix<f64, N, N>;
-type Twists<const N: usize> = SMatrix<f64, 6, N>;
-type Vector<const N: usize> = SVector<f64, N>;
+pub(super) type Square<const N: usize> = SMatrix<f64, N, N>;
+pub(super) type Twists<const N: usize> = SMatrix<f64, 6, N>;
+pub(super) type Vector<const N: usize> = SVector<f64, N>;
 
 /// An error, and what is allowed.
-type Verdict = (f64, f64);
+pub(super) type Verdict = (f64, f64);
 
 /// What a reference says at a state, as far as several rules need it.
 pub(super) struct Judge<'a, const N: usize> {
-    reference: &'a dyn Arm<N>,
-    chain: &'a SerialChain<N>,
-    state: &'a State<N>,
-    scale: Scale<N>,
+    pub(super) reference: &'a dyn Arm<N>,
+    pub(super) chain: &'a SerialChain<N>,
+    pub(super) state: &'a State<N>,
+    pub(super) scale: Scale<N>,
     manipulability: f64,
     gradient: Vector<N>,
     mass_derivatives: [Square<N>; N],
 }
 
-fn rounded<const N: usize>(error: f64) -> Verdict {
+pub(super) fn rounded<const N: usize>(error: f64) -> Verdict {
     (error, rounding(N))
 }
 
@@ -55,12 +55,16 @@ impl<'a, const N: usize> Judge<'a, N> {
         found: IsometryMatrix3<f64>,
         expected: impl FnOnce() -> IsometryMatrix3<f64>,
     ) -> Verdict {
-        let expected = expected();
-        let turned = found.rotation.matrix() - expected.rotation.matrix();
-        let moved = found.translation.vector - expected.translation.vector;
+        rounded::<N>(self.apart(&found, &expected()))
+    }
+
+    /// How far apart two poses are.
+    pub(super) fn apart(&self, a: &IsometryMatrix3<f64>, b: &IsometryMatrix3<f64>) -> f64 {
+        let turned = a.rotation.matrix() - b.rotation.matrix();
+        let moved = a.translation.vector - b.translation.vector;
         let turned = turned.iter().map(|x| x.abs());
         let moved = moved.iter().map(|x| x.abs() / self.scale.position);
-        rounded::<N>(turned.chain(moved).fold(0.0, worse))
+        turned.chain(moved).fold(0.0, worse)
     }
 
     pub(super) fn twists(&self, found: Twists<N>, expected: impl FnOnce() -> Twists<N>) -> Verdict {
@@ -339,7 +343,7 @@ impl<'a, const N: usize> Judge<'a, N> {
         }
     }
 
-    fn unit(&self, joint: usize) -> f64 {
+    pub(super) fn unit(&self, joint: usize) -> f64 {
         self.scale.unit(self.chain, joint)
     }
 }

@@ -48,6 +48,11 @@ fn vanishes_at<const N: usize>(arm: &impl Arm<N>, poses: &[SVector<f64, N>]) {
             [SVector::<f64, N>::zeros(); 2],
             "gradient at {q}"
         );
+        let kinematic = arm.manipulability_gradient(q);
+        assert_eq!(kinematic, (0.0, SVector::zeros()), "w at {q}");
+        assert_eq!(arm.task_space_inertia(q).amax(), 0.0, "Λ at {q}");
+        let inverse = arm.dynamically_consistent_inverse(q);
+        assert_eq!(inverse.amax(), 0.0, "J̄ at {q}");
     }
 }
 

@@ -7,6 +7,7 @@ mod derivatives;
 mod dynamics;
 mod lock;
 mod manipulability;
+mod motion;
 mod payload;
 mod regressor;
 
@@ -163,6 +164,11 @@ macro_rules! both {
         #[test]
         fn derivatives() {
             crate::derivatives::agrees($backend, $name, &$arm);
+        }
+
+        #[test]
+        fn motion() {
+            crate::motion::agrees($backend, $name, &$arm);
         }
     };
 }

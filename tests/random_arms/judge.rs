@@ -6,10 +6,13 @@ use ulna::proof::{State, compare_with, condition, differences};
 use ulna::{Arm as _, SerialChain, TaskRow};
 use ulna_codegen::Interpreter;
 
-const ABOUT_W: [&str; 3] = [
+const ABOUT_W: [&str; 6] = [
     "dynamic_manipulability",
     "dynamic_manipulability_gradient",
     "jacobian_and_gradient",
+    "task_space_inertia",
+    "dynamically_consistent_inverse",
+    "manipulability_gradient",
 ];
 
 /// How far one method of the generated programs is from the reference at a state.

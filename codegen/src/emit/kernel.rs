@@ -52,6 +52,9 @@ pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
         (parts::parts(&writer, compiled, &named, joints), quote!())
     } else {
         named.extend(writer.named_results());
+        // A result that is a number, and the last to get a name, needs none.
+        let last = named.pop_if(|(name, _)| *name == value.to_string());
+        let value = last.map_or(value, |(_, expression)| expression);
         (statements(&named), value)
     };
     quote! {

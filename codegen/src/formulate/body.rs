@@ -29,21 +29,25 @@ pub(crate) fn add_to_last<'g>(bodies: &mut [Body<'g>], body: Body<'g>) {
 ///
 /// What a revolute joint's turning cannot change (mass, first moment along the axis, and as much of the inertia
 /// as is round about it) is counted with the link before; likewise the whole inertia tensor behind a prismatic joint.
-/// M and τ stay the same, and many constants become zero. What reaches the base is dropped.
+/// M and τ stay the same, and many constants become zero. What reaches the base, which neither feels, is the second result,
+/// about the base's origin.
 pub(crate) fn base_parameters<'g>(
     graph: &'g Graph,
     model: &Model,
     links: &[Body<'g>],
-) -> Vec<Body<'g>> {
+) -> (Vec<Body<'g>>, Body<'g>) {
     let mut bodies = links.to_vec();
+    let mut ground = Body::none(graph);
     for (i, joint) in model.joints().iter().enumerate().rev() {
         let passed = indifferent_part(joint, &bodies[i]);
         bodies[i] = bodies[i].join(passed.scale(graph.constant(-1.0)));
-        if i > 0 {
-            bodies[i - 1] = bodies[i - 1].join(seen_from_link_before(graph, joint, passed));
-        }
+        let before = match i {
+            0 => &mut ground,
+            _ => &mut bodies[i - 1],
+        };
+        *before = before.join(seen_from_link_before(graph, joint, passed));
     }
-    bodies
+    (bodies, ground)
 }
 
 /// A body of a joint's link in the frame of the link before, the joint at rest.
@@ -83,6 +87,16 @@ pub(crate) fn indifferent_part<'g>(joint: &Joint, body: &Body<'g>) -> Body<'g> {
 }
 
 impl<'g> Body<'g> {
+    /// Nothing.
+    fn none(graph: &'g Graph) -> Self {
+        let zero = graph.constant(0.0);
+        Self {
+            mass: zero,
+            moment: Vec3([zero; 3]),
+            inertia: Sym3([zero; 6]),
+        }
+    }
+
     /// A link's parameters.
     pub fn of_link(graph: &'g Graph, link: &Link) -> Self {
         let zero = graph.constant(0.0);

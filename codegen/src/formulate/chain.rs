@@ -24,6 +24,10 @@ pub struct ChainJoint<'g> {
     /// From the origin of the joint before to this one's: in this group's axes or, for the first of a group,
     /// in the axes of the group before (of the base for the very first).
     pub offset: Vec3<'g>,
+    /// `a` of its row: from the origin before along x of the frame before, m.
+    pub across: Expr<'g>,
+    /// `d` of its row, with the coordinate of a prismatic joint: on from there along the joint's axis, m.
+    pub along: Expr<'g>,
     /// The turn that takes a vector of the joint's own frame to the group's axes.
     pub group_from_own: Turn<'g>,
     /// The link's inertial constants, regrouped ([`base_parameters`]), in its own frame.
@@ -88,6 +92,8 @@ pub struct Chain<'g> {
     pub base: Placement,
     /// `frame_N_from_tool`.
     pub tool: Placement,
+    /// What of the links' constants has been regrouped to the base, about its origin: no motion changes it.
+    pub ground: Body<'g>,
     /// Gravity in base axes, m/s².
     pub gravity: Vec3<'g>,
     /// The rows of J in w_D.
@@ -102,7 +108,7 @@ impl<'g> Chain<'g> {
             .map(|joint| Body::of_link(graph, &joint.link))
             .collect();
         let rotors = rotors(graph, model, &mut links);
-        let mut bodies = base_parameters(graph, model, &links);
+        let (mut bodies, ground) = base_parameters(graph, model, &links);
         // Regrouping the payload's parameters takes more operations than it saves: they are no numbers yet.
         if model.has_payload() {
             for bodies in [&mut bodies, &mut links] {
@@ -123,6 +129,8 @@ impl<'g> Chain<'g> {
             .map(|(group, i)| ChainJoint {
                 kind: model.joints()[i].kind,
                 offset: offset(graph, model, group, i).named("o", &[i]),
+                across: graph.constant(model.joints()[i].a),
+                along: along(graph, model, i),
                 group_from_own: sum_of_angles(graph, model.joints(), i + 1..group.joints.end)
                     .inverse(),
                 body: bodies[i],
@@ -138,6 +146,7 @@ impl<'g> Chain<'g> {
             rows: model.joints().to_vec(),
             base: *model.base(),
             tool: *model.tool(),
+            ground,
             gravity: Vec3::constant(graph, model.gravity()),
             task: model.task(),
         };
@@ -224,12 +233,17 @@ fn parallel_runs(model: &Model) -> Vec<Range<usize>> {
     runs
 }
 
-fn offset<'g>(graph: &'g Graph, model: &Model, group: &Group<'g>, i: usize) -> Vec3<'g> {
+fn along<'g>(graph: &'g Graph, model: &Model, i: usize) -> Expr<'g> {
     let joint = &model.joints()[i];
-    let along = match joint.kind {
+    match joint.kind {
         JointKind::Revolute => graph.constant(joint.d),
         JointKind::Prismatic => graph.constant(joint.d) + graph.input(Input::Q(i)),
-    };
+    }
+}
+
+fn offset<'g>(graph: &'g Graph, model: &Model, group: &Group<'g>, i: usize) -> Vec3<'g> {
+    let joint = &model.joints()[i];
+    let along = along(graph, model, i);
     let zero = graph.constant(0.0);
     let across = Vec3([graph.constant(joint.a), zero, zero]);
     let along = Vec3([zero, zero, along]);

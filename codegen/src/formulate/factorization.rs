@@ -92,22 +92,33 @@ impl<'g> Factors<'g> {
 
     /// Uᵀ x, and x, of (U D Uᵀ) x = b.
     pub(crate) fn solve_in_steps(&self, b: &[Expr<'g>]) -> (Vec<Expr<'g>>, Vec<Expr<'g>>) {
-        let n = b.len();
+        let mut halfway = self.solve_upper(b);
+        for (x, inverse) in halfway.iter_mut().zip(&self.inverse_pivots) {
+            *x = *x * *inverse;
+        }
+        let x = self.solve_upper_transposed(&halfway);
+        (halfway, x)
+    }
+
+    /// x of U x = b.
+    pub(super) fn solve_upper(&self, b: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let mut x = b.to_vec();
-        for k in (0..n).rev() {
+        for k in (0..x.len()).rev() {
             for i in 0..k {
                 x[i] = x[i] - self.upper[i][k] * x[k];
             }
         }
-        for (x, inverse) in x.iter_mut().zip(&self.inverse_pivots) {
-            *x = *x * *inverse;
-        }
-        let halfway = x.clone();
-        for k in 0..n {
+        x
+    }
+
+    /// x of Uᵀ x = b.
+    pub(super) fn solve_upper_transposed(&self, b: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let mut x = b.to_vec();
+        for k in 0..x.len() {
             for i in 0..k {
                 x[k] = x[k] - self.upper[i][k] * x[i];
             }
         }
-        (halfway, x)
+        x
     }
 }

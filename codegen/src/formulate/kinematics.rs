@@ -50,7 +50,7 @@ impl<'g> Twist<'g> {
 }
 
 /// A frame's axes: the columns of its rotation matrix.
-type Axes<'g> = [Vec3<'g>; 3];
+pub(crate) type Axes<'g> = [Vec3<'g>; 3];
 
 fn combine<'g>(axes: &Axes<'g>, v: Vec3<'g>) -> Vec3<'g> {
     let [x, y, z] = v.0;
@@ -112,7 +112,7 @@ pub fn jacobian_in_group<'g>(chain: &Chain<'g>, group: usize) -> Vec<Twist<'g>> 
 }
 
 /// World axes of the base and of every group, by forward recursion, up to group `last`.
-fn world_axes<'g>(chain: &Chain<'g>, last: usize) -> Vec<Axes<'g>> {
+pub(super) fn world_axes<'g>(chain: &Chain<'g>, last: usize) -> Vec<Axes<'g>> {
     let unit = |j| {
         let base = chain.base.rotation;
         Vec3::constant(chain.graph, std::array::from_fn(|i| base[i][j]))
@@ -157,11 +157,20 @@ fn name_axes(axes: &Axes<'_>, name: &str) {
     }
 }
 
-/// J by columns, in world axes. Columns beyond group `switch` are turned down to it joint by joint;
-/// from there, or from their own group, the group's world axes take them to the world.
+/// J by columns, in world axes; `switch` as for any twists, below.
 pub fn jacobian_in_world<'g>(chain: &Chain<'g>, switch: usize) -> Vec<Twist<'g>> {
+    in_world(chain, &own_twists(chain), switch)
+}
+
+/// A twist of each joint, in the axes of its group, in world axes. Those beyond group `switch` are turned down to it group by group;
+/// from there, or from their own group, the group's world axes take them to the world.
+pub(super) fn in_world<'g>(
+    chain: &Chain<'g>,
+    twists: &[Twist<'g>],
+    switch: usize,
+) -> Vec<Twist<'g>> {
     let axes = world_axes(chain, switch);
-    let columns = own_twists(chain).into_iter().enumerate();
+    let columns = twists.iter().enumerate();
     columns
         .map(|(i, twist)| {
             let own = chain.group_of(i) + 1;

@@ -181,6 +181,18 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ("jee", "jee_r", "squared length of `je_r`"),
     ("jee_inv", "jee_inv_r", "1 / `jee_r`"),
     ("jmu", "jmu_r_s", "share of `je_s` in row r of J"),
+    (
+        "te",
+        "te_r_j",
+        "entry of row r of J U⁻ᵀ less its parts along those before, in the product of D⁻¹",
+    ),
+    ("tee", "tee_r", "squared length of `te_r` in that product"),
+    ("tee_inv", "tee_inv_r", "1 / `tee_r`"),
+    (
+        "tmu",
+        "tmu_r_s, tmu_r_s_pk",
+        "share of `te_s` in row r; what the k-th pass finds of it",
+    ),
     ("w_d", "w_d", "the dynamic manipulability w_D"),
     ("volume", "det_jjt", "det(JJᵀ) over the task's rows"),
     ("dlnw", "dlnw_i", "∂ln w_D/∂q_i"),

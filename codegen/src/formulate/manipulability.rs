@@ -195,28 +195,39 @@ pub(crate) fn squared_lengths<'g>(jacobian: &[Row<'g>], mass: &[Row<'g>]) -> Vec
 }
 
 /// Rows made orthogonal one after another: row s = reduced s + Σ_r coefficient(s, r) · reduced r, over r < s.
-struct Orthogonal<'g> {
+pub(super) struct Orthogonal<'g> {
     reduced: Vec<Row<'g>>,
+    /// The same times the weights of the product.
+    weighted: Vec<Row<'g>>,
     /// Squared lengths of the reduced rows.
-    pivots: Vec<Expr<'g>>,
+    pub(super) pivots: Vec<Expr<'g>>,
     /// For each row and each before it, the coefficient.
     shares: Vec<Vec<Expr<'g>>>,
 }
 
 /// What rows made orthogonal are called, and their squared lengths, one over these, and their shares.
-struct Names([&'static str; 4]);
+pub(super) struct Names([&'static str; 4]);
 
+/// Of J's rows in the product of M⁻¹.
+pub(super) const OF_TASK: Names = Names(["te", "tee", "tee_inv", "tmu"]);
 const OF_H: Names = Names(["e", "ee", "ee_inv", "mu"]);
-const OF_J: Names = Names(["je", "jee", "jee_inv", "jmu"]);
+pub(super) const OF_J: Names = Names(["je", "jee", "jee_inv", "jmu"]);
 
 /// The modified Gram–Schmidt process, each row going through it `passes` times.
-fn orthogonalise<'g>(
+pub(super) fn orthogonalise<'g>(rows: &[Row<'g>], passes: usize, names: &Names) -> Orthogonal<'g> {
+    orthogonalise_in(rows, None, passes, names)
+}
+
+/// The same in the product Σ x_i y_i `weights`_i.
+pub(super) fn orthogonalise_in<'g>(
     rows: &[Row<'g>],
+    weights: Option<&[Expr<'g>]>,
     passes: usize,
     Names([family, squared, inverse, share]): &Names,
 ) -> Orthogonal<'g> {
     let mut basis = Orthogonal {
         reduced: Vec::new(),
+        weighted: Vec::new(),
         pivots: Vec::new(),
         shares: Vec::new(),
     };
@@ -225,10 +236,10 @@ fn orthogonalise<'g>(
         let mut reduced = row.clone();
         let mut shares: Vec<Expr<'g>> = Vec::new();
         for pass in 1..=passes {
-            for (r, (other, pivot)) in basis.reduced.iter().zip(&basis.pivots).enumerate() {
-                let inner = dot(&reduced, other);
+            for (r, pivot) in basis.pivots.iter().enumerate() {
+                let inner = dot(&reduced, &basis.weighted[r]);
                 let coefficient = inner * (inner.of(1.0) / *pivot).named(inverse, &[r]);
-                subtract(&mut reduced, coefficient, other);
+                subtract(&mut reduced, coefficient, &basis.reduced[r]);
                 if passes > 1 {
                     let (row, other) = (number + 1, r + 1);
                     coefficient.labelled(share, || format!("{share}_{row}_{other}_p{pass}"));
@@ -252,8 +263,13 @@ fn orthogonalise<'g>(
         for (r, x) in shares.iter().enumerate() {
             x.named(share, &[number, r]);
         }
-        let pivot = dot(&reduced, &reduced).named(squared, &[number]);
+        let weighted = match weights {
+            Some(weights) => reduced.iter().zip(weights).map(|(x, w)| *x * *w).collect(),
+            None => reduced.clone(),
+        };
+        let pivot = dot(&reduced, &weighted).named(squared, &[number]);
         basis.pivots.push(pivot);
+        basis.weighted.push(weighted);
         basis.reduced.push(reduced);
         basis.shares.push(shares);
     }
@@ -261,13 +277,35 @@ fn orthogonalise<'g>(
 }
 
 impl<'g> Orthogonal<'g> {
+    /// One over a reduced row's squared length.
+    pub(super) fn inverse_pivot(&self, row: usize) -> Expr<'g> {
+        let pivot = self.pivots[row];
+        pivot.of(1.0) / pivot
+    }
+
+    /// The inverse of the unit lower triangular matrix that makes the rows of the reduced ones.
+    pub(super) fn inverse_shares(&self) -> Vec<Row<'g>> {
+        let (zero, one) = (self.pivots[0].of(0.0), self.pivots[0].of(1.0));
+        let mut inverse: Vec<Row<'g>> = Vec::new();
+        for (s, shares) in self.shares.iter().enumerate() {
+            let below = (0..s).map(|column| {
+                let terms = (column..s).map(|r| shares[r] * inverse[r][column]);
+                -terms.fold(zero, |sum, x| sum + x)
+            });
+            let mut row: Row<'g> = below.chain([one]).collect();
+            row.resize(self.shares.len(), zero);
+            inverse.push(row);
+        }
+        inverse
+    }
+
     /// G⁻¹H: the rows' dual basis.
-    fn duals(&self) -> Vec<Row<'g>> {
+    pub(super) fn duals(&self) -> Vec<Row<'g>> {
         let scaled = |(r, (row, pivot)): (usize, (&Row<'g>, &Expr<'g>))| {
             let inverse = (pivot.of(1.0) / *pivot).named("ee_inv", &[r]);
             row.iter().map(|x| *x * inverse).collect()
         };
-        let rows = self.reduced.iter().zip(&self.pivots).enumerate();
+        let rows = self.weighted.iter().zip(&self.pivots).enumerate();
         let mut duals: Vec<Row<'g>> = rows.map(scaled).collect();
         for s in (0..duals.len()).rev() {
             let dual = duals[s].clone();
@@ -293,7 +331,7 @@ fn dot<'g>(a: &Row<'g>, b: &Row<'g>) -> Expr<'g> {
     sum(a.iter().zip(b).map(|(x, y)| *x * *y)).unwrap_or(a[0])
 }
 
-fn product<'g>(factors: &[Expr<'g>]) -> Expr<'g> {
+pub(super) fn product<'g>(factors: &[Expr<'g>]) -> Expr<'g> {
     factors
         .iter()
         .copied()

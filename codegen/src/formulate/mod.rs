@@ -5,21 +5,27 @@
 
 pub(crate) mod articulated;
 pub(crate) mod body;
+pub(crate) mod centroid;
 pub(crate) mod chain;
+pub(crate) mod energy;
 pub(crate) mod factorization;
 pub(crate) mod forward_dynamics_derivatives;
 pub(crate) mod friction;
 pub(crate) mod inverse_dynamics;
 pub(crate) mod inverse_dynamics_derivatives;
+pub(crate) mod kinematic_manipulability;
 pub(crate) mod kinematics;
 pub(crate) mod legend;
+pub(crate) mod links;
 pub(crate) mod lock_impacts;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
 mod matrix;
+pub(crate) mod rates;
 pub(crate) mod regressor;
 pub(crate) mod task;
+pub(crate) mod task_space;
 pub(crate) mod vector;
 mod velocity_products;
 
@@ -163,6 +169,33 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
         }
         Method::Regressor => vec![regressor(chain, Columns::default())],
         Method::BaseRegressor => vec![regressor(chain, choices.base)],
+        Method::LinkPoses => vec![poses_of_links(chain)],
+        Method::LinkJacobians => vec![jacobians_of_links(chain)],
+        Method::CenterOfMass => {
+            let centroid = centroid::center_of_mass(chain).0.to_vec();
+            vec![Output::new("centroid", &[3], centroid).relative_to(Size::LargestOrLength)]
+        }
+        Method::JacobianRate => vec![rate_of_jacobian(chain, choices)],
+        Method::BiasAcceleration => {
+            let acceleration = rates::bias_acceleration(chain, &chain.inputs(Input::Qd));
+            let elements = acceleration.components().to_vec();
+            vec![Output::new("acceleration", &[6], elements)]
+        }
+        Method::KineticEnergy => {
+            let energy = energy::kinetic_energy(chain, &chain.inputs(Input::Qd));
+            vec![Output::new("energy", &[], vec![energy])]
+        }
+        Method::PotentialEnergy => {
+            let energy = centroid::potential_energy(chain);
+            vec![Output::new("energy", &[], vec![energy])]
+        }
+        Method::TaskSpaceInertia => task_space::task_space_inertia(chain, choices),
+        Method::DynamicallyConsistentInverse => {
+            task_space::dynamically_consistent_inverse(chain, choices)
+        }
+        Method::ManipulabilityGradient => {
+            kinematic_manipulability::kinematic_manipulability(chain, choices)
+        }
     }
 }
 
@@ -204,6 +237,30 @@ fn derivatives_of_jacobian<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Ex
     let twists = derivatives.iter().flatten();
     let elements = twists.flat_map(|twist| twist.components());
     Output::new("derivatives", &[n, n, 6], elements.collect())
+}
+
+fn poses_of_links<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
+    let frames = links::link_frames(chain);
+    let columns = frames.iter().flat_map(|frame| {
+        let [x, y, z] = frame.axes;
+        [x, y, z, frame.origin]
+    });
+    let elements = columns.flat_map(|column| column.0).collect();
+    Output::new("poses", &[chain.joint_count(), 4, 3], elements).relative_to(Size::LargestOrLength)
+}
+
+fn jacobians_of_links<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {
+    let n = chain.joint_count();
+    let jacobians = links::link_jacobians(chain);
+    let twists = jacobians.iter().flatten();
+    let elements = twists.flat_map(|twist| twist.components()).collect();
+    Output::new("jacobians", &[n, n, 6], elements)
+}
+
+fn rate_of_jacobian<'g>(chain: &Chain<'g>, choices: Choices) -> Output<Expr<'g>> {
+    let columns = rates::jacobian_rate(chain, &chain.inputs(Input::Qd), choices.world);
+    let elements = columns.iter().flat_map(|twist| twist.components());
+    Output::new("rate", &[chain.joint_count(), 6], elements.collect())
 }
 
 fn mass<'g>(chain: &Chain<'g>) -> Output<Expr<'g>> {

@@ -42,7 +42,7 @@ fn find<'g>(chain: &Chain<'g>, choices: Choices) -> Manipulability<'g> {
     }
 }
 
-fn number<'g>(name: &'static str, value: Expr<'g>) -> Output<Expr<'g>> {
+pub(super) fn number<'g>(name: &'static str, value: Expr<'g>) -> Output<Expr<'g>> {
     Output::new(name, &[], vec![value])
 }
 
@@ -56,8 +56,23 @@ fn is_of_whole_triplets(task: TaskRows) -> bool {
     .contains(&task)
 }
 
+/// The task's rows of J in world axes, in the order that is chosen, each with its place in J.
+pub(super) fn task_rows_in_world<'g>(
+    chain: &Chain<'g>,
+    choices: Choices,
+) -> Vec<(usize, Vec<Expr<'g>>)> {
+    let columns = jacobian_in_world(chain, choices.world);
+    let row = |row: TaskRow| {
+        let components = columns.iter().map(|twist| twist.components()[row.index()]);
+        (row.index(), components.collect())
+    };
+    let rows: Vec<_> = chain.task.iter().map(row).collect();
+    let order = choices.order.iter().filter_map(|place| rows.get(*place));
+    order.cloned().collect()
+}
+
 /// The task's rows of J, in whatever axes are chosen.
-fn task_rows<'g>(chain: &Chain<'g>, choices: Choices) -> Vec<Vec<Expr<'g>>> {
+pub(super) fn task_rows<'g>(chain: &Chain<'g>, choices: Choices) -> Vec<Vec<Expr<'g>>> {
     let columns = if is_of_whole_triplets(chain.task) {
         jacobian_in_group(chain, choices.task)
     } else {

@@ -50,6 +50,14 @@ impl<R: Double> Plain<IsometryMatrix3<f64>> for ([[R; 3]; 3], [R; 3]) {
     }
 }
 
+/// Each pose as the columns of its rotation and its translation, which is how nalgebra keeps one.
+impl<R: Double, const N: usize> Plain<[IsometryMatrix3<f64>; N]> for [[[R; 3]; 4]; N] {
+    #[inline(always)]
+    fn plain(self) -> [IsometryMatrix3<f64>; N] {
+        cast(self)
+    }
+}
+
 /// What a kernel of w_D returns: a result, and det(JJᵀ) after it.
 pub(crate) trait Settled<T> {
     /// The result, with 0 in its parts from `zero` on where det(JJᵀ) counts as 0.

@@ -14,7 +14,9 @@ pub(crate) mod kinematics;
 pub(crate) mod lock;
 pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
+pub(crate) mod motion;
 pub(crate) mod regressor;
+pub(crate) mod task_space;
 pub(crate) mod totality;
 
 use ulna::SerialChain;
@@ -61,6 +63,13 @@ macro_rules! conformance {
             regressor::regressor_is_zero_below_its_link
             regressor::base_columns_are_those_of_the_regressor_and_are_independent
             regressor::base_columns_are_enough_for_every_torque
+            motion::the_last_link_carries_the_tool
+            motion::link_jacobians_are_the_derivatives_of_link_poses
+            motion::the_centre_of_mass_is_the_mean_of_the_links
+            motion::rates_follow_from_the_jacobians_derivatives
+            motion::torques_do_the_work_that_energy_gains
+            task_space::task_space_inertia_undoes_the_mobility_of_the_tool
+            task_space::kinematic_manipulability_is_that_of_its_own_jacobian
             totality::single_and_combined_methods_agree
             totality::any_finite_configuration_gives_numbers
             totality::a_full_turn_changes_nothing
