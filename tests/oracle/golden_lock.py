@@ -13,6 +13,7 @@ Writes data/<arm>.lock.jsonl beside this file: one configuration a line, with
 """
 
 import json
+import sys
 import tomllib
 
 from mpmath import mpf, nstr
@@ -50,6 +51,8 @@ def lock_impacts(arm, q, qd, qdd):
 
 def main():
     for path in sorted(ARMS.glob("*.toml")):
+        if sys.argv[1:] and path.stem not in sys.argv[1:]:
+            continue
         arm = Arm(tomllib.loads(path.read_text()))
         configurations = (HERE / "data" / f"{path.stem}.jsonl").read_text().splitlines()
         with open(HERE / "data" / f"{path.stem}.lock.jsonl", "w") as out:

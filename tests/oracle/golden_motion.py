@@ -23,6 +23,7 @@ them, of all matrices with the same product with qd; it is, and printed is to ho
 """
 
 import json
+import sys
 import tomllib
 
 import numpy as np
@@ -104,6 +105,8 @@ def rounded(value):
 
 def main():
     for path in sorted(ARMS.glob("*.toml")):
+        if sys.argv[1:] and path.stem not in sys.argv[1:]:
+            continue
         table = tomllib.loads(path.read_text())
         (model, frame), arm = build(table), golden_mpmath.Arm(table)
         configurations = (HERE / "data" / f"{path.stem}.jsonl").read_text().splitlines()

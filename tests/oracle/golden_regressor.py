@@ -12,6 +12,7 @@ or slides along, its own z axis, and what follows it in a row of standard DH bel
 """
 
 import json
+import sys
 import tomllib
 
 import numpy as np
@@ -34,6 +35,8 @@ def blocks(model, line):
 
 def main():
     for path in sorted(ARMS.glob("*.toml")):
+        if sys.argv[1:] and path.stem not in sys.argv[1:]:
+            continue
         table = tomllib.loads(path.read_text())
         model, _ = build(table)
         random = np.random.default_rng(1991)
