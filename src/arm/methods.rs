@@ -42,6 +42,13 @@ macro_rules! methods {
             { batch forward_kinematics_batch from 2 }
             { error pose }
 
+            /// Where the links are: `world_from_link_i`, one pose for each link, base first; frame i is that of modified DH, whose z is joint i's axis.
+            LinkPoses = link_poses(q) -> [$crate::nalgebra::IsometryMatrix3<f64>; $n]
+            { kernel "`world_from_link_i` for each i: the rotation's columns, then the translation in m."
+              link_poses_kernel -> [[[R; 3]; 4]; $n] }
+            { batch link_poses_batch from 4 }
+            { error poses }
+
             /// Geometric Jacobian J, 6×N: `[v; ω] = J q̇`. All six rows, whatever the task.
             GeometricJacobian = geometric_jacobian(q) -> $crate::nalgebra::SMatrix<f64, 6, $n>
             { kernel "Geometric Jacobian, 6×N: columns `[v; ω]` in world axes, at the tool point."
@@ -49,12 +56,40 @@ macro_rules! methods {
             { batch geometric_jacobian_batch from 2 }
             { error twists }
 
+            /// Geometric Jacobian of each link at the origin of its frame, 6×N in world axes: `[v_i; ω_i] = J_i q̇`. Columns of joints beyond the link are 0.
+            LinkJacobians = link_jacobians(q) -> [$crate::nalgebra::SMatrix<f64, 6, $n>; $n]
+            { kernel "Geometric Jacobian of link i at its frame's origin, 6×N for each i: columns `[v; ω]` in world axes."
+              link_jacobians_kernel -> [[[R; 6]; $n]; $n] }
+            { batch link_jacobians_batch from 4 }
+            { error twists_of_links }
+
             /// ∂J/∂q_i, one 6×N matrix for each i.
             JacobianDerivatives = jacobian_derivatives(q) -> [$crate::nalgebra::SMatrix<f64, 6, $n>; $n]
             { kernel "∂J/∂q_i, 6×N for each i: columns `[v; ω]` in world axes, at the tool point."
               jacobian_derivatives_kernel -> [[[R; 6]; $n]; $n] }
             { batch jacobian_derivatives_batch from 4 }
             { error twist_derivatives }
+
+            /// J̇, 6×N: the rate of the geometric Jacobian while the joints move, at the tool point, which moves with them.
+            JacobianRate = jacobian_rate(q, qd) -> $crate::nalgebra::SMatrix<f64, 6, $n>
+            { kernel "J̇, 6×N: columns `[v̇; ω̇]` in world axes, at the tool point."
+              jacobian_rate_kernel -> [[R; 6]; $n] }
+            { batch jacobian_rate_batch from 2 }
+            { error twist_rates }
+
+            /// `J̇ q̇`: the tool's acceleration `[v̇; ω̇]` while the joints move at constant rates, m/s² and rad/s², world axes.
+            BiasAcceleration = bias_acceleration(q, qd) -> $crate::nalgebra::Vector6<f64>
+            { kernel "`J̇ q̇`: `[v̇; ω̇]` in world axes, at the tool point, m/s² and rad/s²."
+              bias_acceleration_kernel -> [R; 6] }
+            { batch bias_acceleration_batch from 2 }
+            { error twist_of_rates }
+
+            /// Centre of mass of all links, m, in world axes from the world's origin.
+            CenterOfMass = center_of_mass(q) -> $crate::nalgebra::Vector3<f64>
+            { kernel "Centre of mass of all links, m, world axes."
+              center_of_mass_kernel -> [R; 3] }
+            { batch center_of_mass_batch from 2 }
+            { error centroid }
 
             /// Mass matrix M of `τ = M q̈ + c(q, q̇) + g(q)`, N×N, full and symmetric, kg·m²: that of the links, and on its diagonal what the
             /// [rotors](crate::Motor) behind their gears add.
@@ -78,21 +113,19 @@ macro_rules! methods {
             { batch inverse_mass_matrix_batch from 2 }
             { error inverse_masses }
 
-            /// Dynamic manipulability `w_D = √det((JM⁻¹)(JM⁻¹)ᵀ)` over the task's rows of J (Eq. 15).
-            DynamicManipulability = dynamic_manipulability(q) -> f64
-            { kernel "w_D over the task's rows of J (Eq. 15), and det(JJᵀ) over them."
-              dynamic_manipulability_kernel -> (R, R), zero from 0 }
-            { batch dynamic_manipulability_batch from 2 }
-            { error manipulability }
+            /// Kinetic energy `½ q̇ᵀ M q̇`, J.
+            KineticEnergy = kinetic_energy(q, qd) -> f64
+            { kernel "Kinetic energy, J."
+              kinetic_energy_kernel -> R }
+            { batch kinetic_energy_batch from 2 }
+            { error energy_of_motion }
 
-            /// w_D and its gradient ∇w_D (Eq. 22–27).
-            ///
-            /// Where w_D is 0, Eq. 23 has no value; the gradient returned there is the zero vector. [`crate::arm::singular`] says where that is.
-            DynamicManipulabilityGradient = dynamic_manipulability_gradient(q) -> (f64, $crate::nalgebra::SVector<f64, $n>)
-            { kernel "w_D, ∇w_D (Eq. 22–27), and det(JJᵀ) over the task's rows."
-              dynamic_manipulability_gradient_kernel -> (R, [R; $n], R), zero from 0 }
-            { batch dynamic_manipulability_gradient_batch from 2 }
-            { error gradient }
+            /// Potential energy `−Σ m_i gᵀ p_i` of the links in gravity, J; p_i are their centroids from the world's origin, where it is 0.
+            PotentialEnergy = potential_energy(q) -> f64
+            { kernel "Potential energy, J: 0 at the world's origin."
+              potential_energy_kernel -> R }
+            { batch potential_energy_batch from 2 }
+            { error energy_of_position }
 
             /// Inverse dynamics τ = M q̈ + c(q, q̇) + g(q) + f(q̇), N·m, f the joints' friction; without a tool wrench.
             InverseDynamics = inverse_dynamics(q, qd, qdd) -> $crate::nalgebra::SVector<f64, $n>
@@ -100,6 +133,15 @@ macro_rules! methods {
               inverse_dynamics_kernel -> [R; $n] }
             { batch inverse_dynamics_batch from 2 }
             { error torques }
+
+            /// Inverse dynamics with a wrench: τ = M q̈ + c(q, q̇) + g(q) + f(q̇) − Jᵀ F, N·m.
+            ///
+            /// F = `[f; n]` is what the environment exerts on the tool, at the tool point, in world axes, N and N·m.
+            InverseDynamicsWithWrench = inverse_dynamics_with_wrench(q, qd, qdd, wrench) -> $crate::nalgebra::SVector<f64, $n>
+            { kernel "Joint torques, N·m, for the accelerations `qdd` under the wrench `[f; n]` on the tool, in world axes at the tool point."
+              inverse_dynamics_with_wrench_kernel -> [R; $n] }
+            { batch inverse_dynamics_with_wrench_batch from 2 }
+            { error torques_with_wrench }
 
             /// Bias force c(q, q̇) + g(q): the inverse dynamics at q̈ = 0, without friction.
             BiasForce = bias_force(q, qd) -> $crate::nalgebra::SVector<f64, $n>
@@ -115,31 +157,6 @@ macro_rules! methods {
             { batch gravity_torque_batch from 2 }
             { error torques_at_rest }
 
-            /// Forward dynamics q̈ = M⁻¹(τ − c(q, q̇) − g(q) − f(q̇)), f the joints' friction; without a tool wrench.
-            ForwardDynamics = forward_dynamics(q, qd, tau) -> $crate::nalgebra::SVector<f64, $n>
-            { kernel "Joint accelerations, rad/s², under the torques `tau`."
-              forward_dynamics_kernel -> [R; $n] }
-            { batch forward_dynamics_batch from 2 }
-            { error accelerations }
-
-            /// Inverse dynamics with a wrench: τ = M q̈ + c(q, q̇) + g(q) + f(q̇) − Jᵀ F, N·m.
-            ///
-            /// F = `[f; n]` is what the environment exerts on the tool, at the tool point, in world axes, N and N·m.
-            InverseDynamicsWithWrench = inverse_dynamics_with_wrench(q, qd, qdd, wrench) -> $crate::nalgebra::SVector<f64, $n>
-            { kernel "Joint torques, N·m, for the accelerations `qdd` under the wrench `[f; n]` on the tool, in world axes at the tool point."
-              inverse_dynamics_with_wrench_kernel -> [R; $n] }
-            { batch inverse_dynamics_with_wrench_batch from 2 }
-            { error torques_with_wrench }
-
-            /// Forward dynamics with a wrench: q̈ = M⁻¹(τ + Jᵀ F − c(q, q̇) − g(q) − f(q̇)).
-            ///
-            /// F = `[f; n]` is what the environment exerts on the tool, at the tool point, in world axes, N and N·m.
-            ForwardDynamicsWithWrench = forward_dynamics_with_wrench(q, qd, tau, wrench) -> $crate::nalgebra::SVector<f64, $n>
-            { kernel "Joint accelerations, rad/s², under the torques `tau` and the wrench `[f; n]` on the tool, in world axes at the tool point."
-              forward_dynamics_with_wrench_kernel -> [R; $n] }
-            { batch forward_dynamics_with_wrench_batch from 2 }
-            { error accelerations_with_wrench }
-
             /// Friction torque f(q̇), N·m: `viscous · q̇_i + coulomb · q̇_i / √(q̇_i² + smoothing²)` of each joint's [`Friction`](crate::Friction).
             ///
             /// Inverse and forward dynamics have it in them, and nothing else has.
@@ -149,16 +166,21 @@ macro_rules! methods {
             { batch friction_torque_batch from 2 }
             { error frictions }
 
-            /// Joint impact torques Δτ of a lock, N·m, before minus after (Eq. 1–12): column k holds those of all joints
-            /// if joint k alone stopped dead now, `Δτ = τ(q, q̇, q̈) − τ(q, q̇ − q̇_k e_k, q̈ − q̈_k e_k)` with τ the inverse dynamics.
+            /// Forward dynamics q̈ = M⁻¹(τ − c(q, q̇) − g(q) − f(q̇)), f the joints' friction; without a tool wrench.
+            ForwardDynamics = forward_dynamics(q, qd, tau) -> $crate::nalgebra::SVector<f64, $n>
+            { kernel "Joint accelerations, rad/s², under the torques `tau`."
+              forward_dynamics_kernel -> [R; $n] }
+            { batch forward_dynamics_batch from 2 }
+            { error accelerations }
+
+            /// Forward dynamics with a wrench: q̈ = M⁻¹(τ + Jᵀ F − c(q, q̇) − g(q) − f(q̇)).
             ///
-            /// N×N, without a change of the tool wrench. The column of a joint at rest is exactly 0. Of any set of joints that lock at once
-            /// it is [`impact_torque`](crate::control::failure::impact_torque) that knows.
-            LockImpacts = lock_impacts(q, qd, qdd) -> $crate::nalgebra::SMatrix<f64, $n, $n>
-            { kernel "Joint impact torques, N×N, N·m: column k if joint k locks, before minus after."
-              lock_impacts_kernel -> [[R; $n]; $n] }
-            { batch lock_impacts_batch from 2 }
-            { error lock_impacts }
+            /// F = `[f; n]` is what the environment exerts on the tool, at the tool point, in world axes, N and N·m.
+            ForwardDynamicsWithWrench = forward_dynamics_with_wrench(q, qd, tau, wrench) -> $crate::nalgebra::SVector<f64, $n>
+            { kernel "Joint accelerations, rad/s², under the torques `tau` and the wrench `[f; n]` on the tool, in world axes at the tool point."
+              forward_dynamics_with_wrench_kernel -> [R; $n] }
+            { batch forward_dynamics_with_wrench_batch from 2 }
+            { error accelerations_with_wrench }
 
             /// ∂τ/∂q and ∂τ/∂q̇ of the inverse dynamics, N×N each, N·m/rad and N·m·s/rad: entry (i, j) is ∂τ_i/∂q_j. ∂τ/∂q̈ is M.
             InverseDynamicsDerivatives = inverse_dynamics_derivatives(q, qd, qdd)
@@ -176,27 +198,6 @@ macro_rules! methods {
               forward_dynamics_derivatives_kernel -> ([[R; $n]; $n], [[R; $n]; $n], [[R; $n]; $n]) }
             { batch forward_dynamics_derivatives_batch from 2 }
             { error acceleration_derivatives }
-
-            /// M and all ∂M/∂q_i in one call.
-            MassMatrixAndDerivatives = mass_matrix_and_derivatives(q)
-                -> ($crate::nalgebra::SMatrix<f64, $n, $n>, [$crate::nalgebra::SMatrix<f64, $n, $n>; $n])
-            { kernel "Mass matrix, and its derivatives by each joint."
-              mass_matrix_and_derivatives_kernel -> ([[R; $n]; $n], [[[R; $n]; $n]; $n]) }
-            { batch mass_matrix_and_derivatives_batch from 4 }
-            { error masses_and_derivatives }
-            { default |arm| (arm.mass_matrix(q), arm.mass_matrix_derivatives(q)) }
-
-            /// J (six rows), w_D and ∇w_D in one call: what a cycle of the suppression controller needs.
-            JacobianAndGradient = jacobian_and_gradient(q)
-                -> ($crate::nalgebra::SMatrix<f64, 6, $n>, f64, $crate::nalgebra::SVector<f64, $n>)
-            { kernel "Geometric Jacobian, w_D, ∇w_D, and det(JJᵀ) over the task's rows."
-              jacobian_and_gradient_kernel -> ([[R; 6]; $n], R, [R; $n], R), zero from 1 }
-            { batch jacobian_and_gradient_batch from 2 }
-            { error twists_and_gradient }
-            { default |arm| {
-                let (w, gradient) = arm.dynamic_manipulability_gradient(q);
-                (arm.geometric_jacobian(q), w, gradient)
-            } }
 
             /// Regressor Y of the inverse dynamics: `τ = Σ_i Y_i π_i`, an N×10 block for each link i, π_i its inertial
             /// [parameters](crate::Parameter) about the origin of its frame (modified DH): m, m·c (x, y, z), then the inertia xx, xy, xz, yy, yz, zz.
@@ -222,54 +223,41 @@ macro_rules! methods {
             { batch base_regressor_batch from 4 }
             { error base_regressor }
 
-            /// Where the links are: `world_from_link_i`, one pose for each link, base first; frame i is that of modified DH, whose z is joint i's axis.
-            LinkPoses = link_poses(q) -> [$crate::nalgebra::IsometryMatrix3<f64>; $n]
-            { kernel "`world_from_link_i` for each i: the rotation's columns, then the translation in m."
-              link_poses_kernel -> [[[R; 3]; 4]; $n] }
-            { batch link_poses_batch from 4 }
-            { error poses }
+            /// Joint impact torques Δτ of a lock, N·m, before minus after (Eq. 1–12): column k holds those of all joints
+            /// if joint k alone stopped dead now, `Δτ = τ(q, q̇, q̈) − τ(q, q̇ − q̇_k e_k, q̈ − q̈_k e_k)` with τ the inverse dynamics.
+            ///
+            /// N×N, without a change of the tool wrench. The column of a joint at rest is exactly 0. Of any set of joints that lock at once
+            /// it is [`impact_torque`](crate::control::failure::impact_torque) that knows.
+            LockImpacts = lock_impacts(q, qd, qdd) -> $crate::nalgebra::SMatrix<f64, $n, $n>
+            { kernel "Joint impact torques, N×N, N·m: column k if joint k locks, before minus after."
+              lock_impacts_kernel -> [[R; $n]; $n] }
+            { batch lock_impacts_batch from 2 }
+            { error lock_impacts }
 
-            /// Geometric Jacobian of each link at the origin of its frame, 6×N in world axes: `[v_i; ω_i] = J_i q̇`. Columns of joints beyond the link are 0.
-            LinkJacobians = link_jacobians(q) -> [$crate::nalgebra::SMatrix<f64, 6, $n>; $n]
-            { kernel "Geometric Jacobian of link i at its frame's origin, 6×N for each i: columns `[v; ω]` in world axes."
-              link_jacobians_kernel -> [[[R; 6]; $n]; $n] }
-            { batch link_jacobians_batch from 4 }
-            { error twists_of_links }
+            /// Dynamic manipulability `w_D = √det((JM⁻¹)(JM⁻¹)ᵀ)` over the task's rows of J (Eq. 15).
+            DynamicManipulability = dynamic_manipulability(q) -> f64
+            { kernel "w_D over the task's rows of J (Eq. 15), and det(JJᵀ) over them."
+              dynamic_manipulability_kernel -> (R, R), zero from 0 }
+            { batch dynamic_manipulability_batch from 2 }
+            { error manipulability }
 
-            /// Centre of mass of all links, m, in world axes from the world's origin.
-            CenterOfMass = center_of_mass(q) -> $crate::nalgebra::Vector3<f64>
-            { kernel "Centre of mass of all links, m, world axes."
-              center_of_mass_kernel -> [R; 3] }
-            { batch center_of_mass_batch from 2 }
-            { error centroid }
+            /// w_D and its gradient ∇w_D (Eq. 22–27).
+            ///
+            /// Where w_D is 0, Eq. 23 has no value; the gradient returned there is the zero vector. [`crate::arm::singular`] says where that is.
+            DynamicManipulabilityGradient = dynamic_manipulability_gradient(q) -> (f64, $crate::nalgebra::SVector<f64, $n>)
+            { kernel "w_D, ∇w_D (Eq. 22–27), and det(JJᵀ) over the task's rows."
+              dynamic_manipulability_gradient_kernel -> (R, [R; $n], R), zero from 0 }
+            { batch dynamic_manipulability_gradient_batch from 2 }
+            { error gradient }
 
-            /// J̇, 6×N: the rate of the geometric Jacobian while the joints move, at the tool point, which moves with them.
-            JacobianRate = jacobian_rate(q, qd) -> $crate::nalgebra::SMatrix<f64, 6, $n>
-            { kernel "J̇, 6×N: columns `[v̇; ω̇]` in world axes, at the tool point."
-              jacobian_rate_kernel -> [[R; 6]; $n] }
-            { batch jacobian_rate_batch from 2 }
-            { error twist_rates }
-
-            /// `J̇ q̇`: the tool's acceleration `[v̇; ω̇]` while the joints move at constant rates, m/s² and rad/s², world axes.
-            BiasAcceleration = bias_acceleration(q, qd) -> $crate::nalgebra::Vector6<f64>
-            { kernel "`J̇ q̇`: `[v̇; ω̇]` in world axes, at the tool point, m/s² and rad/s²."
-              bias_acceleration_kernel -> [R; 6] }
-            { batch bias_acceleration_batch from 2 }
-            { error twist_of_rates }
-
-            /// Kinetic energy `½ q̇ᵀ M q̇`, J.
-            KineticEnergy = kinetic_energy(q, qd) -> f64
-            { kernel "Kinetic energy, J."
-              kinetic_energy_kernel -> R }
-            { batch kinetic_energy_batch from 2 }
-            { error energy_of_motion }
-
-            /// Potential energy `−Σ m_i gᵀ p_i` of the links in gravity, J; p_i are their centroids from the world's origin, where it is 0.
-            PotentialEnergy = potential_energy(q) -> f64
-            { kernel "Potential energy, J: 0 at the world's origin."
-              potential_energy_kernel -> R }
-            { batch potential_energy_batch from 2 }
-            { error energy_of_position }
+            /// Kinematic manipulability `w = √det(JJᵀ)` over the task's rows of J and its gradient ∇w (Yoshikawa 1985).
+            ///
+            /// Where the task is [singular](crate::arm::singular), w is 0 and the gradient returned is the zero vector.
+            ManipulabilityGradient = manipulability_gradient(q) -> (f64, $crate::nalgebra::SVector<f64, $n>)
+            { kernel "w = √det(JJᵀ) over the task's rows, ∇w, and det(JJᵀ)."
+              manipulability_gradient_kernel -> (R, [R; $n], R), zero from 0 }
+            { batch manipulability_gradient_batch from 2 }
+            { error kinematic_gradient }
 
             /// Task-space inertia `Λ = (J M⁻¹ Jᵀ)⁻¹` over the task's rows (Khatib 1987), kg for rows of v and kg·m² for rows of ω.
             ///
@@ -290,14 +278,26 @@ macro_rules! methods {
             { batch dynamically_consistent_inverse_batch from 2 }
             { error task_inverse }
 
-            /// Kinematic manipulability `w = √det(JJᵀ)` over the task's rows of J and its gradient ∇w (Yoshikawa 1985).
-            ///
-            /// Where the task is [singular](crate::arm::singular), w is 0 and the gradient returned is the zero vector.
-            ManipulabilityGradient = manipulability_gradient(q) -> (f64, $crate::nalgebra::SVector<f64, $n>)
-            { kernel "w = √det(JJᵀ) over the task's rows, ∇w, and det(JJᵀ)."
-              manipulability_gradient_kernel -> (R, [R; $n], R), zero from 0 }
-            { batch manipulability_gradient_batch from 2 }
-            { error kinematic_gradient }
+            /// M and all ∂M/∂q_i in one call.
+            MassMatrixAndDerivatives = mass_matrix_and_derivatives(q)
+                -> ($crate::nalgebra::SMatrix<f64, $n, $n>, [$crate::nalgebra::SMatrix<f64, $n, $n>; $n])
+            { kernel "Mass matrix, and its derivatives by each joint."
+              mass_matrix_and_derivatives_kernel -> ([[R; $n]; $n], [[[R; $n]; $n]; $n]) }
+            { batch mass_matrix_and_derivatives_batch from 4 }
+            { error masses_and_derivatives }
+            { default |arm| (arm.mass_matrix(q), arm.mass_matrix_derivatives(q)) }
+
+            /// J (six rows), w_D and ∇w_D in one call: what a cycle of the suppression controller needs.
+            JacobianAndGradient = jacobian_and_gradient(q)
+                -> ($crate::nalgebra::SMatrix<f64, 6, $n>, f64, $crate::nalgebra::SVector<f64, $n>)
+            { kernel "Geometric Jacobian, w_D, ∇w_D, and det(JJᵀ) over the task's rows."
+              jacobian_and_gradient_kernel -> ([[R; 6]; $n], R, [R; $n], R), zero from 1 }
+            { batch jacobian_and_gradient_batch from 2 }
+            { error twists_and_gradient }
+            { default |arm| {
+                let (w, gradient) = arm.dynamic_manipulability_gradient(q);
+                (arm.geometric_jacobian(q), w, gradient)
+            } }
         }
     };
 }

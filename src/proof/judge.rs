@@ -1,6 +1,8 @@
 //! How large the error of each kind of quantity is, and how large it may be: a rule for each, named in the table of methods.
 
+mod motion;
 mod regressor;
+mod task;
 
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 

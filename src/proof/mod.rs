@@ -6,8 +6,6 @@
 pub(crate) mod calls;
 pub mod differences;
 mod judge;
-mod judge_motion;
-mod judge_task;
 #[doc(hidden)]
 pub mod random;
 mod report;

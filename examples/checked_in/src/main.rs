@@ -2,7 +2,7 @@
 //! and neither a generator nor its dependencies are built.
 //!
 //! `src/planar_2r.rs` was written in this folder by
-//! `ulna generate ../../arms/planar_2r.toml --output src/planar_2r.rs`.
+//! `ulna generate ../../arms/planar_2r.toml --methods mass_matrix,inverse_dynamics,dynamic_manipulability_gradient --output src/planar_2r.rs`.
 //! The same command with `--check` fails if the table or the generator has changed since.
 
 mod planar_2r;

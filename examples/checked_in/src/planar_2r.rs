@@ -2,32 +2,19 @@
 // SHA-256 of the table: ac9b797a8f8c3ae17bc731d6671316bf60c5263134a1e6bfc32a3d6d2bc6eba2
 //
 // Operations                             add     sub     mul     div     neg    sqrt   total sin_cos   error
-//   forward_kinematics                     2       1       4       0       1       0       8       2   4e-15
-//   geometric_jacobian                     2       1       4       0       2       0       9       2   4e-15
-//   jacobian_derivatives                   2       1       4       0       4       0      11       2   4e-15
 //   mass_matrix                            2       0       1       0       0       0       3       1   2e-15
-//   mass_matrix_derivatives                0       0       1       0       2       0       3       1   2e-15
-//   inverse_mass_matrix                    3       1       5       1       1       0      11       1   7e-15
-//   dynamic_manipulability                12      11      40       3       0       1      67       2   7e-12
-//   dynamic_manipulability_gradient       24      21      75       4       0       1     125       2   7e-12
 //   inverse_dynamics                       9       1      17       0       0       0      27       2   2e-14
-//   bias_force                             4       1      12       0       0       0      17       2   2e-14
-//   gravity_torque                         2       0       7       0       0       0       9       2   2e-14
-//   forward_dynamics                       6       6      19       1       0       0      32       2   2e-14
-//   inverse_dynamics_derivatives           6       3      18       0       4       0      31       2   9e-15
-//   forward_dynamics_derivatives          15      12      46       1       4       0      78       2   2e-14
-//   mass_matrix_and_derivatives            2       0       2       0       2       0       6       1   2e-15
-//   jacobian_and_gradient                 24      21      75       4       2       1     127       2   7e-12
-//   link_poses                             1       1       4       0       2       0       8       2   2e-15
-//   link_jacobians                         1       1       4       0       1       0       7       2   3e-15
-//   center_of_mass                         2       1       6       0       0       0       9       2   1e-15
-//   jacobian_rate                          4       1       8       0       3       0      16       2   4e-15
-//   bias_acceleration                      4       1      10       0       1       0      16       2   5e-15
-//   kinetic_energy                         3       0       6       0       0       0       9       1   3e-15
-//   potential_energy                       1       1       5       0       1       0       8       2   3e-14
-//   task_space_inertia                    11       8      35       4       1       0      59       2   2e-11
-//   dynamically_consistent_inverse        14      12      45       4       1       0      76       2   7e-12
-//   manipulability_gradient               12      11      39       2       0       1      65       2   4e-12
+//   dynamic_manipulability_gradient       24      21      75       4       0       1     125       2   7e-12
+//
+// Not generated, but computed by the textbook formulas on CHAIN:
+//   forward_kinematics, link_poses, geometric_jacobian, link_jacobians,
+//   jacobian_derivatives, jacobian_rate, bias_acceleration, center_of_mass,
+//   mass_matrix_derivatives, inverse_mass_matrix, kinetic_energy, potential_energy,
+//   inverse_dynamics_with_wrench, bias_force, gravity_torque, friction_torque,
+//   forward_dynamics, forward_dynamics_with_wrench, inverse_dynamics_derivatives, forward_dynamics_derivatives,
+//   regressor, base_regressor, lock_impacts, dynamic_manipulability,
+//   manipulability_gradient, task_space_inertia, dynamically_consistent_inverse, mass_matrix_and_derivatives,
+//   jacobian_and_gradient.
 //
 // error: of the worst entry, relative to the largest, in double precision. 8 times what was measured at
 // 16 random states and 5 near singular poses, where J's rows span 1e-4 of the product of their lengths.
@@ -35,6 +22,16 @@
 // which was 1e1 at the median of those states, and 6e4 at most.
 
 /// The arm `planar_2r`: 2 joints, unrolled.
+///
+/// Not generated, but computed by the textbook formulas on `CHAIN` (the same numbers but for rounding, slower):
+/// `forward_kinematics`, `link_poses`, `geometric_jacobian`, `link_jacobians`,
+/// `jacobian_derivatives`, `jacobian_rate`, `bias_acceleration`, `center_of_mass`,
+/// `mass_matrix_derivatives`, `inverse_mass_matrix`, `kinetic_energy`, `potential_energy`,
+/// `inverse_dynamics_with_wrench`, `bias_force`, `gravity_torque`, `friction_torque`,
+/// `forward_dynamics`, `forward_dynamics_with_wrench`, `inverse_dynamics_derivatives`, `forward_dynamics_derivatives`,
+/// `regressor`, `base_regressor`, `lock_impacts`, `dynamic_manipulability`,
+/// `manipulability_gradient`, `task_space_inertia`, `dynamically_consistent_inverse`, `mass_matrix_and_derivatives`,
+/// `jacobian_and_gradient`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Planar2r;
 #[rustfmt::skip]
@@ -49,6 +46,9 @@ impl Planar2r {
                 theta: ::ulna::Angle::from_radians(0.0),
                 d: 0.0,
                 rated_torque: Some(40.0),
+                limits: ::ulna::Limits::NONE,
+                motor: ::ulna::Motor::NONE,
+                friction: ::ulna::Friction::NONE,
                 link: ::ulna::Link {
                     mass: 1.0,
                     com: [0.5, 0.0, 0.0],
@@ -66,6 +66,9 @@ impl Planar2r {
                 theta: ::ulna::Angle::from_radians(0.0),
                 d: 0.0,
                 rated_torque: Some(15.0),
+                limits: ::ulna::Limits::NONE,
+                motor: ::ulna::Motor::NONE,
+                friction: ::ulna::Friction::NONE,
                 link: ::ulna::Link {
                     mass: 1.0,
                     com: [0.5, 0.0, 0.0],
@@ -85,688 +88,162 @@ impl Planar2r {
         gravity: [0.0, -9.81, 0.0],
         task: ::ulna::TaskRows::new(&[::ulna::TaskRow::X, ::ulna::TaskRow::Y]),
     };
+    /// What the joints are called, base first.
+    pub const JOINT_NAMES: [&'static str; 2] = ["joint 1", "joint 2"];
+    /// The base (minimal) inertial parameters: each one's link and its column in the link's block of the regressor, both from 0.
+    pub const BASE_PARAMETERS: [(usize, usize); 6] = [
+        (0, 1),
+        (0, 2),
+        (0, 9),
+        (1, 1),
+        (1, 2),
+        (1, 9),
+    ];
 }
 #[rustfmt::skip]
 impl ::ulna::Unrolled<2> for Planar2r {
     const CHAIN: ::ulna::SerialChain<2> = Self::CHAIN;
-    /// `world_from_tool`: the rotation's columns, and the translation in m.
+    const GENERATED: ::ulna::MethodSet = ::ulna::MethodSet::of(
+        &[
+            ::ulna::Method::MassMatrix, ::ulna::Method::InverseDynamics,
+            ::ulna::Method::DynamicManipulabilityGradient,
+        ],
+    );
+    /// Mass matrix M of `τ = M q̈ + c(q, q̇) + g(q)`, N×N, full and symmetric, kg·m²: that of the links, and on its diagonal what the
+    /// [rotors](ulna::Motor) behind their gears add.
     ///
-    /// Operations: 8, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 4e-15.
-    #[inline(always)]
-    fn forward_kinematics_kernel<R: ::ulna::Real>(q: &[R; 2]) -> ([[R; 3]; 3], [R; 3]) {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = R::of(1.0) + c2;
-        (
-            [
-                [c12, s12, R::of(0.0)],
-                [-s12, c12, R::of(0.0)],
-                [R::of(0.0), R::of(0.0), R::of(1.0)],
-            ],
-            [c12.mul_add(t1, s12 * s2), c12.neg_mul_add(s2, s12 * t1), R::of(0.0)],
-        )
-    }
-    /// Geometric Jacobian, 6×N: columns `[v; ω]` in world axes, at the tool point.
-    ///
-    /// Operations: 9, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 4e-15.
-    #[inline(always)]
-    fn geometric_jacobian_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[R; 6]; 2] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = R::of(1.0) + c2;
-        [
-            [
-                -c12.neg_mul_add(s2, s12 * t1),
-                c12.mul_add(t1, s12 * s2),
-                R::of(0.0),
-                R::of(0.0),
-                R::of(0.0),
-                R::of(1.0),
-            ],
-            [-s12, c12, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
-        ]
-    }
-    /// ∂J/∂q_i, 6×N for each i: columns `[v; ω]` in world axes, at the tool point.
-    ///
-    /// Operations: 11, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 4e-15.
-    #[inline(always)]
-    fn jacobian_derivatives_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[[R; 6]; 2]; 2] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = R::of(1.0) + c2;
-        let t2 = -s12;
-        let t3 = -c12;
-        [
-            [
-                [
-                    -c12.mul_add(t1, s12 * s2),
-                    -c12.neg_mul_add(s2, s12 * t1),
-                    R::of(0.0),
-                    R::of(0.0),
-                    R::of(0.0),
-                    R::of(0.0),
-                ],
-                [t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-            ],
-            [
-                [t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-                [t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-            ],
-        ]
-    }
-    /// Mass matrix, N×N, kg·m².
+    /// Of `q` joint coordinates, rad (m).
+    /// Returns: Mass matrix, N×N, kg·m².
     ///
     /// Operations: 3, and sine and cosine of 1 angles.
     /// Rounding error of the worst entry, relative to the largest: 2e-15.
+    ///
+    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
+    /// - `m_i_j`: entry of the mass matrix M
     #[inline(always)]
-    fn mass_matrix_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[R; 2]; 2] {
+    fn mass_matrix_kernel<R: ::ulna::Real>(&self, q: &[R; 2]) -> [[R; 2]; 2] {
         let ([_], [c2]) = R::sin_cos_all([q[1]]);
-        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        [[R::of(1.6669791666666667) + c2, t1], [t1, R::of(0.3334895833333333)]]
+        let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let m_1_1 = R::of(1.6669791666666667) + c2;
+        [[m_1_1, m_1_2], [m_1_2, R::of(0.3334895833333333)]]
     }
-    /// ∂M/∂q_i, N×N for each i, kg·m²/rad.
+    /// Inverse dynamics τ = M q̈ + c(q, q̇) + g(q) + f(q̇), N·m, f the joints' friction; without a tool wrench.
     ///
-    /// Operations: 3, and sine and cosine of 1 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-15.
-    #[inline(always)]
-    fn mass_matrix_derivatives_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[[R; 2]; 2]; 2] {
-        let ([s2], [_]) = R::sin_cos_all([q[1]]);
-        let t1 = -(R::of(0.5) * s2);
-        [
-            [[R::of(0.0), R::of(0.0)], [R::of(0.0), R::of(0.0)]],
-            [[-s2, t1], [t1, R::of(0.0)]],
-        ]
-    }
-    /// Inverse mass matrix, N×N, 1/(kg·m²).
-    ///
-    /// Operations: 11, and sine and cosine of 1 angles.
-    /// Rounding error of the worst entry, relative to the largest: 7e-15.
-    #[inline(always)]
-    fn inverse_mass_matrix_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[R; 2]; 2] {
-        let ([_], [c2]) = R::sin_cos_all([q[1]]);
-        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t2 = t1 * R::of(2.9985944088708423);
-        let t3 = R::of(1.0) / t1.neg_mul_add(t2, R::of(1.6669791666666667) + c2);
-        let t4 = t2 * t3;
-        let t5 = -t4;
-        [[t3, t5], [t5, t2.mul_add(t4, R::of(2.9985944088708423))]]
-    }
-    /// w_D over the task's rows of J (Eq. 15), and det(JJᵀ) over them.
-    ///
-    /// Operations: 67, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 7e-12.
-    #[inline(always)]
-    fn dynamic_manipulability_kernel<R: ::ulna::Real>(q: &[R; 2]) -> (R, R) {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = R::of(1.0) + c2;
-        let t2 = c12.mul_add(t1, s12 * s2);
-        let t3 = c12.neg_mul_add(s2, s12 * t1);
-        let t4 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t5 = t4 * R::of(2.9985944088708423);
-        let t6 = R::of(1.0) / t4.neg_mul_add(t5, R::of(1.6669791666666667) + c2);
-        let t7 = t6 * s12.mul_sub(t5, t3);
-        let t8 = s12.mul_add(R::of(2.9985944088708423), t5 * t7);
-        let t9 = t6 * c12.neg_mul_add(t5, t2);
-        let t10 = t5.neg_mul_add(t9, c12 * R::of(2.9985944088708423));
-        let t11 = t7.mul_add(t7, t8 * t8);
-        let t12 = R::of(1.0) / t11;
-        let t13 = t8.neg_mul_add(t10, t7 * t9) * t12;
-        let t14 = t7.neg_mul_add(t13, t9);
-        let t15 = t8.mul_add(t13, t10);
-        let t16 = t12 * t8.neg_mul_add(t15, t7 * t14);
-        let t17 = t7.neg_mul_add(t16, t14);
-        let t18 = t8.mul_add(t16, t15);
-        let t19 = t3.mul_add(t3, s12 * s12);
-        let t20 = t2.mul_add(t3, s12 * c12) * (R::of(1.0) / t19);
-        let t21 = t3.neg_mul_add(t20, t2);
-        let t22 = s12.neg_mul_add(t20, c12);
-        ((t11 * t17.mul_add(t17, t18 * t18)).sqrt(), t19 * t21.mul_add(t21, t22 * t22))
-    }
-    /// w_D, ∇w_D (Eq. 22–27), and det(JJᵀ) over the task's rows.
-    ///
-    /// Operations: 125, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 7e-12.
-    #[inline(always)]
-    fn dynamic_manipulability_gradient_kernel<R: ::ulna::Real>(
-        q: &[R; 2],
-    ) -> (R, [R; 2], R) {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = R::of(1.0) + c2;
-        let t2 = c12.mul_add(t1, s12 * s2);
-        let t3 = c12.neg_mul_add(s2, s12 * t1);
-        let t4 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t5 = t4 * R::of(2.9985944088708423);
-        let t6 = R::of(1.0) / t4.neg_mul_add(t5, R::of(1.6669791666666667) + c2);
-        let t7 = t6 * s12.mul_sub(t5, t3);
-        let t8 = s12.mul_add(R::of(2.9985944088708423), t5 * t7);
-        let t9 = t6 * c12.neg_mul_add(t5, t2);
-        let t10 = t5.neg_mul_add(t9, c12 * R::of(2.9985944088708423));
-        let t11 = t7.mul_add(t7, t8 * t8);
-        let t12 = R::of(1.0) / t11;
-        let t13 = t8.neg_mul_add(t10, t7 * t9) * t12;
-        let t14 = t7.neg_mul_add(t13, t9);
-        let t15 = t8.mul_add(t13, t10);
-        let t16 = t12 * t8.neg_mul_add(t15, t7 * t14);
-        let t17 = t7.neg_mul_add(t16, t14);
-        let t18 = t8.mul_add(t16, t15);
-        let t19 = t13 + t16;
-        let t20 = t17.mul_add(t17, t18 * t18);
-        let t21 = (t11 * t20).sqrt();
-        let t22 = R::of(1.0) / t20;
-        let t23 = t17 * t22;
-        let t24 = t18 * t22;
-        let t25 = t8.mul_add(t12, t19 * t24);
-        let t26 = t6 * t5.mul_add(t25, t19.neg_mul_add(t23, t7 * t12));
-        let t27 = t25.mul_add(R::of(2.9985944088708423), t5 * t26);
-        let t28 = t6 * t5.neg_mul_add(t24, t23);
-        let t29 = t5.neg_mul_add(t28, R::of(2.9985944088708423) * t24);
-        let t30 = t7.neg_mul_add(t27, t9 * t29) + t8.neg_mul_add(t26, t10 * t28);
-        let t31 = s12.neg_mul_add(t26, c12 * t28)
-            - t30.mul_add(R::of(0.5), t7.mul_add(t26, t9 * t28));
-        let t32 = s12
-            .neg_mul_add(
-                t1.mul_add(t28, s2.mul_add(t26, t29)),
-                c12 * s2.mul_add(t28, t1.neg_mul_add(t26, t27)),
-            );
-        let t33 = s2.neg_mul_add(t31, c2 * c12.mul_add(t26, s12 * t28));
-        let t34 = t3.mul_add(t3, s12 * s12);
-        let t35 = t2.mul_add(t3, s12 * c12) * (R::of(1.0) / t34);
-        let t36 = t3.neg_mul_add(t35, t2);
-        let t37 = s12.neg_mul_add(t35, c12);
-        (t21, [t21 * t32, t21 * (t32 + t33)], t34 * t36.mul_add(t36, t37 * t37))
-    }
-    /// Joint torques, N·m, for the accelerations `qdd`.
+    /// Of `q` joint coordinates, rad (m), `qd` their rates, rad/s (m/s), `qdd` their accelerations, rad/s² (m/s²).
+    /// Returns: Joint torques, N·m, for the accelerations `qdd`.
     ///
     /// Operations: 27, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 2e-14.
+    ///
+    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
+    /// - `wx_i, wy_i, wz_i`: angular velocity of link i, rad/s
+    /// - `alx_i, aly_i, alz_i`: angular acceleration of link i, rad/s²
+    /// - `ax_i ..., ax_i_before ...`: acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before
+    /// - `fx_own_i ..., nx_own_i ...`: force and moment that link i's own motion takes, N and N·m
+    /// - `nx_i, ny_i, nz_i`: moment on link i from the link before, about joint i's origin, N·m
     #[inline(always)]
     fn inverse_dynamics_kernel<R: ::ulna::Real>(
+        &self,
         q: &[R; 2],
         qd: &[R; 2],
         qdd: &[R; 2],
     ) -> [R; 2] {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = c12 * R::of(9.81);
-        let t2 = qdd[0] + qdd[1];
-        let t3 = qd[0] + qd[1];
-        let t4 = t2
-            .mul_add(
-                R::of(0.3334895833333333),
-                R::of(0.5) * (t1 + c2.mul_add(qdd[0], s2 * (qd[0] * qd[0]))),
-            );
-        let t5 = s2.neg_mul_add(R::of(0.5) * (t3 * t3), c2 * (R::of(0.5) * t2));
-        let t6 = t1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        [t4 + t5 + qdd[0].mul_add(R::of(1.3334895833333333), t6), t4]
+        let ay_1 = c12 * R::of(9.81);
+        let alz_2 = qdd[0] + qdd[1];
+        let wz_2 = qd[0] + qd[1];
+        let nz_own_2 = alz_2.mul_add(
+            R::of(0.3334895833333333),
+            R::of(0.5) * (ay_1 + c2.mul_add(qdd[0], s2 * (qd[0] * qd[0]))),
+        );
+        let t1 = s2.neg_mul_add(R::of(0.5) * (wz_2 * wz_2), c2 * (R::of(0.5) * alz_2));
+        let t2 = ay_1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
+        let nz_1_z = nz_own_2 + t1 + qdd[0].mul_add(R::of(1.3334895833333333), t2);
+        [nz_1_z, nz_own_2]
     }
-    /// Joint torques, N·m, at zero acceleration.
+    /// w_D and its gradient ∇w_D (Eq. 22–27).
     ///
-    /// Operations: 17, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-14.
-    #[inline(always)]
-    fn bias_force_kernel<R: ::ulna::Real>(q: &[R; 2], qd: &[R; 2]) -> [R; 2] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = c12 * R::of(9.81);
-        let t2 = qd[0] + qd[1];
-        let t3 = R::of(0.5) * s2.mul_add(qd[0] * qd[0], t1);
-        let t4 = t1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        [s2.neg_mul_add(R::of(0.5) * (t2 * t2), t3) + t4, t3]
-    }
-    /// Joint torques, N·m, at rest.
+    /// Where w_D is 0, Eq. 23 has no value; the gradient returned there is the zero vector. [`ulna::arm::singular`] says where that is.
     ///
-    /// Operations: 9, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-14.
-    #[inline(always)]
-    fn gravity_torque_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [R; 2] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = c12 * R::of(4.905);
-        let t2 = (c12 * R::of(9.81))
-            .mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        [t1 + t2, t1]
-    }
-    /// Joint accelerations, rad/s², under the torques `tau`.
+    /// Of `q` joint coordinates, rad (m).
+    /// Returns: w_D, ∇w_D (Eq. 22–27), and det(JJᵀ) over the task's rows.
     ///
-    /// Operations: 32, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-14.
-    #[inline(always)]
-    fn forward_dynamics_kernel<R: ::ulna::Real>(
-        q: &[R; 2],
-        qd: &[R; 2],
-        tau: &[R; 2],
-    ) -> [R; 2] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = c12 * R::of(9.81);
-        let t2 = qd[0] + qd[1];
-        let t3 = R::of(0.5) * s2.mul_add(qd[0] * qd[0], t1);
-        let t4 = t1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        let t5 = tau[0] - (s2.neg_mul_add(R::of(0.5) * (t2 * t2), t3) + t4);
-        let t6 = tau[1] - t3;
-        let t7 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t8 = t7 * R::of(2.9985944088708423);
-        let t9 = R::of(1.0) / t7.neg_mul_add(t8, R::of(1.6669791666666667) + c2)
-            * t6.neg_mul_add(t8, t5);
-        [t9, t8.neg_mul_add(t9, t6 * R::of(2.9985944088708423))]
-    }
-    /// ∂τ/∂q and ∂τ/∂q̇, N×N, for the accelerations `qdd`.
-    ///
-    /// Operations: 31, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 9e-15.
-    #[inline(always)]
-    fn inverse_dynamics_derivatives_kernel<R: ::ulna::Real>(
-        q: &[R; 2],
-        qd: &[R; 2],
-        qdd: &[R; 2],
-    ) -> ([[R; 2]; 2], [[R; 2]; 2]) {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = s12 * R::of(9.81);
-        let t2 = qd[0] + qd[1];
-        let t3 = R::of(0.5) * (t1 + c2.neg_mul_add(qd[0] * qd[0], s2 * qdd[0]));
-        let t4 = s2 * qd[0];
-        let t5 = s2 * t2;
-        let t6 = c2
-            .mul_add(R::of(0.5) * (t2 * t2), s2 * (R::of(0.5) * (qdd[0] + qdd[1])));
-        let t7 = t1
-            .neg_mul_add(
-                c2.mul_add(R::of(1.5), R::of(0.5)),
-                c12 * R::of(9.81) * (R::of(1.5) * s2),
-            );
-        (
-            [[t7, -(s12 * R::of(4.905))], [-(t3 + t6), -t3]],
-            [[t4 - t5, t4], [-t5, R::of(0.0)]],
-        )
-    }
-    /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ, N×N, under the torques `tau`.
-    ///
-    /// Operations: 78, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-14.
-    #[inline(always)]
-    fn forward_dynamics_derivatives_kernel<R: ::ulna::Real>(
-        q: &[R; 2],
-        qd: &[R; 2],
-        tau: &[R; 2],
-    ) -> ([[R; 2]; 2], [[R; 2]; 2], [[R; 2]; 2]) {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = s12 * R::of(9.81);
-        let t2 = c12 * R::of(9.81);
-        let t3 = qd[0] * qd[0];
-        let t4 = qd[0] + qd[1];
-        let t5 = R::of(0.5) * (t4 * t4);
-        let t6 = R::of(0.5) * s2.mul_add(t3, t2);
-        let t7 = R::of(1.5) * c2;
-        let t8 = R::of(1.5) * s2;
-        let t9 = s2.neg_mul_add(t5, t6) + t2.mul_add(t7, t1 * t8);
-        let t10 = tau[1] - t6;
-        let t11 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t12 = t11 * R::of(2.9985944088708423);
-        let t13 = R::of(1.0) / t11.neg_mul_add(t12, R::of(1.6669791666666667) + c2);
-        let t14 = t13 * t10.neg_mul_add(t12, tau[0] - t9);
-        let t15 = t1 + c2.neg_mul_add(t3, s2 * t14);
-        let t16 = R::of(0.5) * t15;
-        let t17 = s2 * qd[0];
-        let t18 = s2 * t4;
-        let t19 = c2
-            .mul_add(
-                t5,
-                s2
-                    * (R::of(0.5)
-                        * (t14 + t12.neg_mul_add(t14, t10 * R::of(2.9985944088708423)))),
-            );
-        let t20 = t12
-            .mul_add(s12 * R::of(4.905), t1.neg_mul_add(R::of(0.5) + t7, t2 * t8));
-        let t21 = t13 * t20;
-        let t22 = t13 * t12.neg_mul_add(t16, t16 + t19);
-        let t23 = t13 * t12.mul_sub(t17, t17 - t18);
-        let t24 = t13 * t18;
-        let t25 = t12 * t13;
-        let t26 = -t25;
-        (
-            [
-                [-t21, s12.mul_add(R::of(14.708105575511482), t12 * t21)],
-                [t22, t12.neg_mul_add(t22, t15 * R::of(1.4992972044354211))],
-            ],
-            [
-                [t23, -t17.mul_add(R::of(2.9985944088708423), t12 * t23)],
-                [t24, -(t12 * t24)],
-            ],
-            [[t13, t26], [t26, t12.mul_add(t25, R::of(2.9985944088708423))]],
-        )
-    }
-    /// Mass matrix, and its derivatives by each joint.
-    ///
-    /// Operations: 6, and sine and cosine of 1 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-15.
-    #[inline(always)]
-    fn mass_matrix_and_derivatives_kernel<R: ::ulna::Real>(
-        q: &[R; 2],
-    ) -> ([[R; 2]; 2], [[[R; 2]; 2]; 2]) {
-        let ([s2], [c2]) = R::sin_cos_all([q[1]]);
-        let t1 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t2 = -(R::of(0.5) * s2);
-        (
-            [[R::of(1.6669791666666667) + c2, t1], [t1, R::of(0.3334895833333333)]],
-            [
-                [[R::of(0.0), R::of(0.0)], [R::of(0.0), R::of(0.0)]],
-                [[-s2, t2], [t2, R::of(0.0)]],
-            ],
-        )
-    }
-    /// Geometric Jacobian, w_D, ∇w_D, and det(JJᵀ) over the task's rows.
-    ///
-    /// Operations: 127, and sine and cosine of 2 angles.
+    /// Operations: 125, and sine and cosine of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 7e-12.
+    ///
+    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
+    /// - `rx_i, ry_i, rz_i`: from joint i's origin to the tool point, m
+    /// - `j_x_i ... j_rz_i`: column i of J: rows x, y, z (velocity) and rx, ry, rz (angular velocity)
+    /// - `m_i_j`: entry of the mass matrix M
+    /// - `d_inv_i`: 1 / `d_i`
+    /// - `u_i_j`: entry of U in M = U D Uᵀ
+    /// - `h_r_j`: entry of H = JM⁻¹, r counting the task's rows in the order in which they are made orthogonal
+    /// - `e_r_j, e_r_j_pk_s`: entry of H's row r less its parts along those before; in the k-th pass, after that along row s
+    /// - `ee_r`: squared length of `e_r`
+    /// - `ee_inv_r`: 1 / `ee_r`
+    /// - `mu_r_s, mu_r_s_pk`: share of `e_s` in row r of H; what the k-th pass finds of it
+    /// - `ed_r_j`: entry of (HHᵀ)⁻¹H
+    /// - `w_r_j`: entry of W = (HHᵀ)⁻¹HM⁻¹
+    /// - `je_r_j`: entry of J's row r less its parts along those before
+    /// - `jee_r`: squared length of `je_r`
+    /// - `jmu_r_s`: share of `je_s` in row r of J
+    /// - `w_d`: the dynamic manipulability w_D
+    /// - `det_jjt`: det(JJᵀ) over the task's rows
+    /// - `dw_i`: ∂w_D/∂q_i
+    /// - `x_bar`: adjoint of x: ∂ln w_D/∂x
     #[inline(always)]
-    fn jacobian_and_gradient_kernel<R: ::ulna::Real>(
+    fn dynamic_manipulability_gradient_kernel<R: ::ulna::Real>(
+        &self,
         q: &[R; 2],
-    ) -> ([[R; 6]; 2], R, [R; 2], R) {
+    ) -> (R, [R; 2], R) {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = R::of(1.0) + c2;
-        let t2 = c12.mul_add(t1, s12 * s2);
-        let t3 = c12.neg_mul_add(s2, s12 * t1);
-        let t4 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t5 = t4 * R::of(2.9985944088708423);
-        let t6 = R::of(1.0) / t4.neg_mul_add(t5, R::of(1.6669791666666667) + c2);
-        let t7 = t6 * s12.mul_sub(t5, t3);
-        let t8 = s12.mul_add(R::of(2.9985944088708423), t5 * t7);
-        let t9 = t6 * c12.neg_mul_add(t5, t2);
-        let t10 = t5.neg_mul_add(t9, c12 * R::of(2.9985944088708423));
-        let t11 = t7.mul_add(t7, t8 * t8);
-        let t12 = R::of(1.0) / t11;
-        let t13 = t8.neg_mul_add(t10, t7 * t9) * t12;
-        let t14 = t7.neg_mul_add(t13, t9);
-        let t15 = t8.mul_add(t13, t10);
-        let t16 = t12 * t8.neg_mul_add(t15, t7 * t14);
-        let t17 = t7.neg_mul_add(t16, t14);
-        let t18 = t8.mul_add(t16, t15);
-        let t19 = t13 + t16;
-        let t20 = t17.mul_add(t17, t18 * t18);
-        let t21 = (t11 * t20).sqrt();
-        let t22 = R::of(1.0) / t20;
-        let t23 = t17 * t22;
-        let t24 = t18 * t22;
-        let t25 = t8.mul_add(t12, t19 * t24);
-        let t26 = t6 * t5.mul_add(t25, t19.neg_mul_add(t23, t7 * t12));
-        let t27 = t25.mul_add(R::of(2.9985944088708423), t5 * t26);
-        let t28 = t6 * t5.neg_mul_add(t24, t23);
-        let t29 = t5.neg_mul_add(t28, R::of(2.9985944088708423) * t24);
-        let t30 = t7.neg_mul_add(t27, t9 * t29) + t8.neg_mul_add(t26, t10 * t28);
-        let t31 = s12.neg_mul_add(t26, c12 * t28)
-            - t30.mul_add(R::of(0.5), t7.mul_add(t26, t9 * t28));
-        let t32 = s12
-            .neg_mul_add(
-                t1.mul_add(t28, s2.mul_add(t26, t29)),
-                c12 * s2.mul_add(t28, t1.neg_mul_add(t26, t27)),
-            );
-        let t33 = s2.neg_mul_add(t31, c2 * c12.mul_add(t26, s12 * t28));
-        let t34 = t3.mul_add(t3, s12 * s12);
-        let t35 = t2.mul_add(t3, s12 * c12) * (R::of(1.0) / t34);
-        let t36 = t3.neg_mul_add(t35, t2);
-        let t37 = s12.neg_mul_add(t35, c12);
-        (
-            [
-                [-t3, t2, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
-                [-s12, c12, R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
-            ],
-            t21,
-            [t21 * t32, t21 * (t32 + t33)],
-            t34 * t36.mul_add(t36, t37 * t37),
-        )
-    }
-    /// `world_from_link_i` for each i: the rotation's columns, then the translation in m.
-    ///
-    /// Operations: 8, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-15.
-    #[inline(always)]
-    fn link_poses_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[[R; 3]; 4]; 2] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = c12.mul_add(c2, s12 * s2);
-        let t2 = c12.neg_mul_add(s2, s12 * c2);
-        [
-            [
-                [t1, t2, R::of(0.0)],
-                [-t2, t1, R::of(0.0)],
-                [R::of(0.0), R::of(0.0), R::of(1.0)],
-                [R::of(0.0), R::of(0.0), R::of(0.0)],
-            ],
-            [
-                [c12, s12, R::of(0.0)],
-                [-s12, c12, R::of(0.0)],
-                [R::of(0.0), R::of(0.0), R::of(1.0)],
-                [t1, t2, R::of(0.0)],
-            ],
-        ]
-    }
-    /// Geometric Jacobian of link i at its frame's origin, 6×N for each i: columns `[v; ω]` in world axes.
-    ///
-    /// Operations: 7, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 3e-15.
-    #[inline(always)]
-    fn link_jacobians_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [[[R; 6]; 2]; 2] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        [
-            [
-                [R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
-                [R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-            ],
-            [
-                [
-                    -c12.neg_mul_add(s2, s12 * c2),
-                    c12.mul_add(c2, s12 * s2),
-                    R::of(0.0),
-                    R::of(0.0),
-                    R::of(0.0),
-                    R::of(1.0),
-                ],
-                [R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(1.0)],
-            ],
-        ]
-    }
-    /// Centre of mass of all links, m, world axes.
-    ///
-    /// Operations: 9, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 1e-15.
-    #[inline(always)]
-    fn center_of_mass_kernel<R: ::ulna::Real>(q: &[R; 2]) -> [R; 3] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = s2 * R::of(0.75);
-        let t2 = c2.mul_add(R::of(0.75), R::of(0.25));
-        [c12.mul_add(t2, s12 * t1), c12.neg_mul_add(t1, s12 * t2), R::of(0.0)]
-    }
-    /// J̇, 6×N: columns `[v̇; ω̇]` in world axes, at the tool point.
-    ///
-    /// Operations: 16, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 4e-15.
-    #[inline(always)]
-    fn jacobian_rate_kernel<R: ::ulna::Real>(q: &[R; 2], qd: &[R; 2]) -> [[R; 6]; 2] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = qd[0] + qd[1];
-        let t2 = s2 * qd[0];
-        let t3 = qd[0].mul_add(R::of(1.0) + c2, qd[1]);
-        [
-            [
-                -s12.mul_add(t2, c12 * t3),
-                s12.neg_mul_add(t3, c12 * t2),
-                R::of(0.0),
-                R::of(0.0),
-                R::of(0.0),
-                R::of(0.0),
-            ],
-            [-(c12 * t1), -(s12 * t1), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-        ]
-    }
-    /// `J̇ q̇`: `[v̇; ω̇]` in world axes, at the tool point, m/s² and rad/s².
-    ///
-    /// Operations: 16, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 5e-15.
-    #[inline(always)]
-    fn bias_acceleration_kernel<R: ::ulna::Real>(q: &[R; 2], qd: &[R; 2]) -> [R; 6] {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = qd[0] * (s2 * qd[0]);
-        let t2 = qd[1]
-            .mul_add(qd[1], qd[0] * qd[0].mul_add(R::of(1.0) + c2, R::of(2.0) * qd[1]));
-        [
-            -c12.mul_add(t2, s12 * t1),
-            s12.neg_mul_add(t2, c12 * t1),
-            R::of(0.0),
-            R::of(0.0),
-            R::of(0.0),
-            R::of(0.0),
-        ]
-    }
-    /// Kinetic energy, J.
-    ///
-    /// Operations: 9, and sine and cosine of 1 angles.
-    /// Rounding error of the worst entry, relative to the largest: 3e-15.
-    #[inline(always)]
-    fn kinetic_energy_kernel<R: ::ulna::Real>(q: &[R; 2], qd: &[R; 2]) -> R {
-        let ([_], [c2]) = R::sin_cos_all([q[1]]);
-        let t1 = qd[0] + qd[1];
-        qd[0]
-            .mul_add(
-                qd[0] * R::of(0.6667447916666667),
-                t1 * t1.mul_add(R::of(0.16674479166666664), R::of(0.5) * (c2 * qd[0])),
-            )
-    }
-    /// Potential energy, J: 0 at the world's origin.
-    ///
-    /// Operations: 8, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 3e-14.
-    #[inline(always)]
-    fn potential_energy_kernel<R: ::ulna::Real>(q: &[R; 2]) -> R {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = s12
-            .neg_mul_add(c2.mul_add(R::of(1.5), R::of(0.5)), c12 * (R::of(1.5) * s2));
-        -(t1 * R::of(9.81))
-    }
-    /// Λ, 6×6, 0 outside the task's rows and columns, and det(JJᵀ) over them.
-    ///
-    /// Operations: 59, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 2e-11.
-    #[inline(always)]
-    fn task_space_inertia_kernel<R: ::ulna::Real>(q: &[R; 2]) -> ([[R; 6]; 6], R) {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = R::of(1.0) + c2;
-        let t2 = c12.mul_add(t1, s12 * s2);
-        let t3 = c12.neg_mul_add(s2, s12 * t1);
-        let t4 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t5 = t4 * R::of(2.9985944088708423);
-        let t6 = R::of(1.0) / t4.neg_mul_add(t5, R::of(1.6669791666666667) + c2);
-        let t7 = s12.mul_sub(t5, t3);
-        let t8 = c12.neg_mul_add(t5, t2);
-        let t9 = t6 * t7;
-        let t10 = s12 * R::of(2.9985944088708423);
-        let t11 = R::of(1.0) / t7.mul_add(t9, s12 * t10);
-        let t12 = c12.neg_mul_add(t10, t8 * t9) * t11;
-        let t13 = t7.neg_mul_add(t12, t8);
-        let t14 = s12.mul_add(t12, c12);
-        let t15 = R::of(1.0)
-            / t13.mul_add(t6 * t13, t14 * (R::of(2.9985944088708423) * t14));
-        let t16 = -(t12 * t15);
-        let t17 = t3.mul_add(t3, s12 * s12);
-        let t18 = t2.mul_add(t3, s12 * c12) * (R::of(1.0) / t17);
-        let t19 = t3.neg_mul_add(t18, t2);
-        let t20 = s12.neg_mul_add(t18, c12);
-        (
-            [
-                [
-                    (t12 * t12).mul_add(t15, t11),
-                    t16,
-                    R::of(0.0),
-                    R::of(0.0),
-                    R::of(0.0),
-                    R::of(0.0),
-                ],
-                [t16, t15, R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0), R::of(0.0)],
-            ],
-            t17 * t19.mul_add(t19, t20 * t20),
-        )
-    }
-    /// J̄, N×6, 0 outside the task's columns, and det(JJᵀ) over the task's rows.
-    ///
-    /// Operations: 76, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 7e-12.
-    #[inline(always)]
-    fn dynamically_consistent_inverse_kernel<R: ::ulna::Real>(
-        q: &[R; 2],
-    ) -> ([[R; 2]; 6], R) {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = R::of(1.0) + c2;
-        let t2 = c12.mul_add(t1, s12 * s2);
-        let t3 = c12.neg_mul_add(s2, s12 * t1);
-        let t4 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
-        let t5 = t4 * R::of(2.9985944088708423);
-        let t6 = R::of(1.0) / t4.neg_mul_add(t5, R::of(1.6669791666666667) + c2);
-        let t7 = s12.mul_sub(t5, t3);
-        let t8 = c12.neg_mul_add(t5, t2);
-        let t9 = t6 * t7;
-        let t10 = s12 * R::of(2.9985944088708423);
-        let t11 = R::of(1.0) / t7.mul_add(t9, s12 * t10);
-        let t12 = c12.neg_mul_add(t10, t8 * t9) * t11;
-        let t13 = t7.neg_mul_add(t12, t8);
-        let t14 = s12.mul_add(t12, c12);
-        let t15 = t11 * t10.neg_mul_add(t14, t9 * t13);
-        let t16 = t7.neg_mul_add(t15, t13);
-        let t17 = s12.mul_add(t15, t14);
-        let t18 = t12 + t15;
-        let t19 = t6 * t16;
-        let t20 = R::of(2.9985944088708423) * t17;
-        let t21 = R::of(1.0) / t16.mul_add(t19, t17 * t20);
-        let t22 = t19 * t21;
-        let t23 = t20 * t21;
-        let t24 = t18.neg_mul_add(t22, t9 * t11);
-        let t25 = -t5.mul_add(t24, t10.mul_add(t11, t18 * t23));
-        let t26 = t3.mul_add(t3, s12 * s12);
-        let t27 = t2.mul_add(t3, s12 * c12) * (R::of(1.0) / t26);
-        let t28 = t3.neg_mul_add(t27, t2);
-        let t29 = s12.neg_mul_add(t27, c12);
-        (
-            [
-                [t24, t25],
-                [t22, t5.neg_mul_add(t22, t23)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-                [R::of(0.0), R::of(0.0)],
-            ],
-            t26 * t28.mul_add(t28, t29 * t29),
-        )
-    }
-    /// w = √det(JJᵀ) over the task's rows, ∇w, and det(JJᵀ).
-    ///
-    /// Operations: 65, and sine and cosine of 2 angles.
-    /// Rounding error of the worst entry, relative to the largest: 4e-12.
-    #[inline(always)]
-    fn manipulability_gradient_kernel<R: ::ulna::Real>(q: &[R; 2]) -> (R, [R; 2], R) {
-        let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
-        let t1 = R::of(1.0) + c2;
-        let t2 = c12.mul_add(t1, s12 * s2);
-        let t3 = c12.neg_mul_add(s2, s12 * t1);
-        let t4 = t3.mul_add(t3, s12 * s12);
-        let t5 = R::of(1.0) / t4;
-        let t6 = t2.mul_add(t3, s12 * c12) * t5;
-        let t7 = t3.neg_mul_add(t6, t2);
-        let t8 = s12.neg_mul_add(t6, c12);
-        let t9 = t5 * t3.mul_add(t7, s12 * t8);
-        let t10 = t3.neg_mul_add(t9, t7);
-        let t11 = s12.neg_mul_add(t9, t8);
-        let t12 = t6 + t9;
-        let t13 = t10.mul_add(t10, t11 * t11);
-        let t14 = R::of(1.0) / t13;
-        let t15 = t10 * t14;
-        let t16 = t11 * t14;
-        let t17 = t3.neg_mul_add(t5, t12 * t15);
-        let t18 = t4 * t13;
-        let t19 = t18.sqrt();
-        let t20 = s2.mul_sub(t15, t1.mul_add(t17, s12.neg_mul_add(t5, t12 * t16)));
-        let t21 = s12.neg_mul_add(t1.mul_add(t15, s2.mul_add(t17, t16)), c12 * t20);
-        let t22 = s2
-            .neg_mul_add(
-                s12.neg_mul_add(t17, c12 * t15),
-                c2 * c12.mul_add(t17, s12 * t15),
-            );
-        (t19, [t19 * t21, t19 * (t21 + t22)], t18)
+        let rx_1 = R::of(1.0) + c2;
+        let j_y_1 = c12.mul_add(rx_1, s12 * s2);
+        let j_x_1_neg = c12.neg_mul_add(s2, s12 * rx_1);
+        let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
+        let u_1_2 = m_1_2 * R::of(2.9985944088708423);
+        let d_inv_1 = R::of(1.0) / m_1_2.neg_mul_add(u_1_2, R::of(1.6669791666666667) + c2);
+        let h_1_1 = d_inv_1 * s12.mul_sub(u_1_2, j_x_1_neg);
+        let h_1_2_neg = s12.mul_add(R::of(2.9985944088708423), u_1_2 * h_1_1);
+        let h_2_1 = d_inv_1 * c12.neg_mul_add(u_1_2, j_y_1);
+        let h_2_2 = u_1_2.neg_mul_add(h_2_1, c12 * R::of(2.9985944088708423));
+        let ee_1 = h_1_1.mul_add(h_1_1, h_1_2_neg * h_1_2_neg);
+        let ee_inv_1 = R::of(1.0) / ee_1;
+        let mu_2_1_p1 = h_1_2_neg.neg_mul_add(h_2_2, h_1_1 * h_2_1) * ee_inv_1;
+        let e_2_1_p1_1 = h_1_1.neg_mul_add(mu_2_1_p1, h_2_1);
+        let e_2_2_p1_1 = h_1_2_neg.mul_add(mu_2_1_p1, h_2_2);
+        let mu_2_1_p2 = ee_inv_1 * h_1_2_neg.neg_mul_add(e_2_2_p1_1, h_1_1 * e_2_1_p1_1);
+        let e_2_1 = h_1_1.neg_mul_add(mu_2_1_p2, e_2_1_p1_1);
+        let e_2_2 = h_1_2_neg.mul_add(mu_2_1_p2, e_2_2_p1_1);
+        let mu_2_1 = mu_2_1_p1 + mu_2_1_p2;
+        let ee_2 = e_2_1.mul_add(e_2_1, e_2_2 * e_2_2);
+        let w_d = (ee_1 * ee_2).sqrt();
+        let ee_inv_2 = R::of(1.0) / ee_2;
+        let ed_2_1 = e_2_1 * ee_inv_2;
+        let ed_2_2 = e_2_2 * ee_inv_2;
+        let ed_1_2_neg = h_1_2_neg.mul_add(ee_inv_1, mu_2_1 * ed_2_2);
+        let w_1_1 = d_inv_1
+            * u_1_2.mul_add(ed_1_2_neg, mu_2_1.neg_mul_add(ed_2_1, h_1_1 * ee_inv_1));
+        let w_1_2_neg = ed_1_2_neg.mul_add(R::of(2.9985944088708423), u_1_2 * w_1_1);
+        let w_2_1 = d_inv_1 * u_1_2.neg_mul_add(ed_2_2, ed_2_1);
+        let w_2_2 = u_1_2.neg_mul_add(w_2_1, R::of(2.9985944088708423) * ed_2_2);
+        let m_1_2_bar_neg = h_1_1.neg_mul_add(w_1_2_neg, h_2_1 * w_2_2)
+            + h_1_2_neg.neg_mul_add(w_1_1, h_2_2 * w_2_1);
+        let t1 = s12.neg_mul_add(w_1_1, c12 * w_2_1)
+            - m_1_2_bar_neg.mul_add(R::of(0.5), h_1_1.mul_add(w_1_1, h_2_1 * w_2_1));
+        let angle_1_2_bar = s12.neg_mul_add(
+            rx_1.mul_add(w_2_1, s2.mul_add(w_1_1, w_2_2)),
+            c12 * s2.mul_add(w_2_1, rx_1.neg_mul_add(w_1_1, w_1_2_neg)),
+        );
+        let angle_2_bar = s2.neg_mul_add(t1, c2 * c12.mul_add(w_1_1, s12 * w_2_1));
+        let jee_1 = j_x_1_neg.mul_add(j_x_1_neg, s12 * s12);
+        let jmu_2_1_neg = j_y_1.mul_add(j_x_1_neg, s12 * c12) * (R::of(1.0) / jee_1);
+        let je_2_1 = j_x_1_neg.neg_mul_add(jmu_2_1_neg, j_y_1);
+        let je_2_2 = s12.neg_mul_add(jmu_2_1_neg, c12);
+        let dw_1 = w_d * angle_1_2_bar;
+        let dw_2 = w_d * (angle_1_2_bar + angle_2_bar);
+        let det_jjt = jee_1 * je_2_1.mul_add(je_2_1, je_2_2 * je_2_2);
+        (w_d, [dw_1, dw_2], det_jjt)
     }
 }
 ::ulna::implement_arm!(Planar2r, 2);
@@ -776,7 +253,8 @@ mod planar_2r_proof {
     /// Every method against the textbook formulas, at random states.
     #[test]
     fn generated_code_agrees_with_the_textbook() {
-        let (arm, chain) = (super::Planar2r, super::Planar2r::CHAIN);
+        let arm = super::Planar2r;
+        let chain = ::ulna::Unrolled::chain(&arm);
         let states = ::ulna::proof::states(&chain).take(20);
         let report = ::ulna::proof::compare(&arm, &chain, states);
         assert!(report.passes(), "{report}");

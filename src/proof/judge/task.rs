@@ -9,9 +9,9 @@
 
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
-use super::judge::{Judge, Vector, Verdict};
-use super::{relative, rounding, worse};
+use super::{Judge, Vector, Verdict};
 use crate::generic::{ThinQr, task_columns};
+use crate::proof::{relative, rounding, worse};
 use crate::{Real, TaskRow};
 
 /// What is made of Λ and J̄ where J and M change.
@@ -62,7 +62,7 @@ fn conditioned<const N: usize>(factor: f64, condition: f64) -> f64 {
 }
 
 impl<const N: usize> Judge<'_, N> {
-    pub(super) fn task_inertia(
+    pub(in crate::proof) fn task_inertia(
         &self,
         found: Matrix6<f64>,
         expected: impl FnOnce() -> Matrix6<f64>,
@@ -74,7 +74,7 @@ impl<const N: usize> Judge<'_, N> {
         (error, change.allowed())
     }
 
-    pub(super) fn task_inverse(
+    pub(in crate::proof) fn task_inverse(
         &self,
         found: SMatrix<f64, N, 6>,
         expected: impl FnOnce() -> SMatrix<f64, N, 6>,
@@ -93,7 +93,7 @@ impl<const N: usize> Judge<'_, N> {
     }
 
     /// As for w_D, with the condition number of w.
-    pub(super) fn kinematic_gradient(
+    pub(in crate::proof) fn kinematic_gradient(
         &self,
         (value, slopes): (f64, Vector<N>),
         expected: impl FnOnce() -> (f64, Vector<N>),

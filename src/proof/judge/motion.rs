@@ -2,11 +2,11 @@
 
 use nalgebra::{IsometryMatrix3, SVector, Vector3, Vector6};
 
-use super::judge::{Judge, Twists, Verdict, rounded};
-use super::{relative, worse};
+use super::{Judge, Square, Twists, Verdict, rounded};
+use crate::proof::{relative, worse};
 
 impl<const N: usize> Judge<'_, N> {
-    pub(super) fn poses(
+    pub(in crate::proof) fn poses(
         &self,
         found: [IsometryMatrix3<f64>; N],
         expected: impl FnOnce() -> [IsometryMatrix3<f64>; N],
@@ -16,7 +16,7 @@ impl<const N: usize> Judge<'_, N> {
         rounded::<N>(pairs.map(|(a, b)| self.apart(a, b)).fold(0.0, worse))
     }
 
-    pub(super) fn twists_of_links(
+    pub(in crate::proof) fn twists_of_links(
         &self,
         found: [Twists<N>; N],
         expected: impl FnOnce() -> [Twists<N>; N],
@@ -27,7 +27,7 @@ impl<const N: usize> Judge<'_, N> {
     }
 
     /// A mean of points none of which is farther out than the chain is long and its own link's centroid besides.
-    pub(super) fn centroid(
+    pub(in crate::proof) fn centroid(
         &self,
         found: Vector3<f64>,
         expected: impl FnOnce() -> Vector3<f64>,
@@ -37,7 +37,7 @@ impl<const N: usize> Judge<'_, N> {
     }
 
     /// What J can change by at these rates: each joint turns, or moves, the twists by their own size.
-    pub(super) fn twist_rates(
+    pub(in crate::proof) fn twist_rates(
         &self,
         found: Twists<N>,
         expected: impl FnOnce() -> Twists<N>,
@@ -47,7 +47,7 @@ impl<const N: usize> Judge<'_, N> {
     }
 
     /// J̇ takes the rates once more.
-    pub(super) fn twist_of_rates(
+    pub(in crate::proof) fn twist_of_rates(
         &self,
         found: Vector6<f64>,
         expected: impl FnOnce() -> Vector6<f64>,
@@ -59,14 +59,40 @@ impl<const N: usize> Judge<'_, N> {
         rounded::<N>(relative(worse(linear, angular), speed * speed))
     }
 
+    /// Christoffel's symbols with M's sizes, over the unit of a coordinate, in the place of M's derivatives.
+    pub(in crate::proof) fn masses_at_rates(
+        &self,
+        found: Square<N>,
+        expected: impl FnOnce() -> Square<N>,
+    ) -> Verdict {
+        let sizes = &self.scale.links_ahead;
+        let (speed, momentum) = (self.speed(), sizes.dot(&self.state.qd.abs()));
+        let difference = found - expected();
+        let entries = (0..N).flat_map(|i| (0..N).map(move |j| (i, j)));
+        let errors = entries.map(|(i, j)| {
+            let crossed = sizes[i] / self.unit(j) + sizes[j] / self.unit(i);
+            let size = 0.5 * (sizes[i] * sizes[j] * speed + crossed * momentum);
+            relative(difference[(i, j)], size)
+        });
+        rounded::<N>(errors.fold(0.0, worse))
+    }
+
     /// M's sizes in the place of M.
-    pub(super) fn energy_of_motion(&self, found: f64, expected: impl FnOnce() -> f64) -> Verdict {
+    pub(in crate::proof) fn energy_of_motion(
+        &self,
+        found: f64,
+        expected: impl FnOnce() -> f64,
+    ) -> Verdict {
         let momentum = self.scale.inertia.dot(&self.state.qd.abs());
         rounded::<N>(relative(found - expected(), 0.5 * momentum * momentum))
     }
 
     /// All mass as far out as it can be.
-    pub(super) fn energy_of_position(&self, found: f64, expected: impl FnOnce() -> f64) -> Verdict {
+    pub(in crate::proof) fn energy_of_position(
+        &self,
+        found: f64,
+        expected: impl FnOnce() -> f64,
+    ) -> Verdict {
         let masses = self.chain.joints.iter().map(|joint| joint.link.mass);
         let weight = Vector3::from(self.chain.gravity).norm() * masses.sum::<f64>();
         rounded::<N>(relative(found - expected(), weight * self.farthest()))
