@@ -113,6 +113,14 @@ macro_rules! methods {
             { batch inverse_mass_matrix_batch from 2 }
             { error inverse_masses }
 
+            /// Coriolis matrix C, N×N, of Christoffel's symbols, kg·m²/s: the bias force is `C q̇ + g`, and `Ṁ = C + Cᵀ`, so that
+            /// `Ṁ − 2C` is skew-symmetric.
+            CoriolisMatrix = coriolis_matrix(q, qd) -> $crate::nalgebra::SMatrix<f64, $n, $n>
+            { kernel "Coriolis matrix of Christoffel's symbols, N×N, kg·m²/s."
+              coriolis_matrix_kernel -> [[R; $n]; $n] }
+            { batch coriolis_matrix_batch from 2 }
+            { error masses_at_rates }
+
             /// Kinetic energy `½ q̇ᵀ M q̇`, J.
             KineticEnergy = kinetic_energy(q, qd) -> f64
             { kernel "Kinetic energy, J."

@@ -7,6 +7,7 @@
 //! and the paper on joint impact torque, Eq. 15 and 22–27, for w_D and its gradient.
 
 mod base_columns;
+mod coriolis;
 mod dynamics_derivatives;
 mod energy;
 mod finite_difference;
@@ -231,6 +232,10 @@ impl<const N: usize> Arm<N> for SerialChain<N> {
 
     fn dynamically_consistent_inverse(&self, q: &SVector<f64, N>) -> SMatrix<f64, N, 6> {
         self.task_dynamics(&self.inputs(q)).inverse
+    }
+
+    fn coriolis_matrix(&self, q: &SVector<f64, N>, qd: &SVector<f64, N>) -> SMatrix<f64, N, N> {
+        self.christoffel_matrix(&self.inputs(q), qd)
     }
 
     fn manipulability_gradient(&self, q: &SVector<f64, N>) -> (f64, SVector<f64, N>) {

@@ -14,6 +14,7 @@ struct Motion {
     link_velocities: Vec<f64>,
     center_of_mass: Vec<f64>,
     bias_acceleration: Vec<f64>,
+    coriolis_matrix: Vec<f64>,
     kinetic_energy: f64,
     potential_energy: f64,
     task_space_inertia: Vec<f64>,
@@ -50,6 +51,11 @@ pub(crate) fn agrees<const N: usize>(backend: &str, name: &str, arm: &impl Arm<N
             "bias acceleration",
             arm.bias_acceleration(&q, &qd).iter().copied(),
             &golden.bias_acceleration,
+        );
+        errors.record(
+            "Coriolis matrix",
+            row_by_row(&arm.coriolis_matrix(&q, &qd)),
+            &golden.coriolis_matrix,
         );
         let (kinetic, potential) = (arm.kinetic_energy(&q, &qd), arm.potential_energy(&q));
         errors.record("kinetic energy", [kinetic], &[golden.kinetic_energy]);

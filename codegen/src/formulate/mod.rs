@@ -7,6 +7,7 @@ pub(crate) mod articulated;
 pub(crate) mod body;
 pub(crate) mod centroid;
 pub(crate) mod chain;
+pub(crate) mod coriolis;
 pub(crate) mod energy;
 pub(crate) mod factorization;
 pub(crate) mod forward_dynamics_derivatives;
@@ -192,6 +193,10 @@ pub fn formulate<'g>(method: Method, chain: &Chain<'g>, choices: Choices) -> Out
         Method::TaskSpaceInertia => task_space::task_space_inertia(chain, choices),
         Method::DynamicallyConsistentInverse => {
             task_space::dynamically_consistent_inverse(chain, choices)
+        }
+        Method::CoriolisMatrix => {
+            let rows = coriolis::coriolis_matrix(chain, &chain.inputs(Input::Qd));
+            vec![by_columns("coriolis", &rows)]
         }
         Method::ManipulabilityGradient => {
             kinematic_manipulability::kinematic_manipulability(chain, choices)

@@ -7,6 +7,7 @@
 mod differences;
 mod exponentials;
 
+pub(crate) mod coriolis;
 pub(crate) mod drives;
 pub(crate) mod dynamics;
 pub(crate) mod dynamics_derivatives;
@@ -63,6 +64,8 @@ macro_rules! conformance {
             regressor::regressor_is_zero_below_its_link
             regressor::base_columns_are_those_of_the_regressor_and_are_independent
             regressor::base_columns_are_enough_for_every_torque
+            coriolis::the_coriolis_matrix_makes_the_bias_force
+            coriolis::the_coriolis_matrix_is_of_christoffels_symbols
             motion::the_last_link_carries_the_tool
             motion::link_jacobians_are_the_derivatives_of_link_poses
             motion::the_centre_of_mass_is_the_mean_of_the_links
