@@ -46,7 +46,7 @@ fn joint() -> BoxedStrategy<Joint> {
         .boxed()
 }
 
-/// A rotor of a microgram's to a flywheel's inertia, behind gears or not.
+/// A rotor like a watch's to one like a flywheel, behind gears or not.
 fn motor() -> BoxedStrategy<Option<(f64, f64)>> {
     let motor = (decades(-80..=-10), decades(0..=30));
     proptest::option::weighted(0.3, motor).boxed()
