@@ -141,7 +141,11 @@ VectorN driving(const double *x) {
 }
 
 void forward_dynamics(const double *x, double *out) {
-    Map<VectorXd>(out, N) = pinocchio::aba(w.model, w.data, Vector(x, N), Vector(x + N, N), driving(x));
+    Map<VectorXd>(out, N) = pinocchio::aba(w.model, w.data, Vector(x, N), Vector(x + N, N), driving(x), pinocchio::Convention::WORLD);
+}
+
+void forward_dynamics_local(const double *x, double *out) {
+    Map<VectorXd>(out, N) = pinocchio::aba(w.model, w.data, Vector(x, N), Vector(x + N, N), driving(x), pinocchio::Convention::LOCAL);
 }
 
 // Rotation by columns, then translation, of each joint's frame.
@@ -262,7 +266,7 @@ void forward_dynamics_derivatives_by_rows(const double *x, double *out) {
 // From the derivatives of the inverse dynamics, products of fixed size.
 void forward_dynamics_derivatives_by_inverse(const double *x, double *out) {
     Square by_q(out), by_qd(out + N * N), by_tau(out + 2 * N * N);
-    const VectorN qdd = pinocchio::aba(w.model, w.data, Vector(x, N), Vector(x + N, N), driving(x));
+    const VectorN qdd = pinocchio::aba(w.model, w.data, Vector(x, N), Vector(x + N, N), driving(x), pinocchio::Convention::WORLD);
     by_tau = pinocchio::computeMinverse(w.model, w.data);
     by_tau.template triangularView<Eigen::StrictlyLower>() = by_tau.transpose();
     Matrix<double, N, N> torque_by_q, torque_by_qd;
@@ -300,6 +304,7 @@ const struct {
     {"geometric_jacobian/joints", geometric_jacobian_of_joints},
     {"inverse_dynamics", inverse_dynamics},
     {"forward_dynamics", forward_dynamics},
+    {"forward_dynamics/local", forward_dynamics_local},
     {"link_poses", link_poses},
     {"link_jacobians", link_jacobians},
     {"center_of_mass", center_of_mass},

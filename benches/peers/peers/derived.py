@@ -44,8 +44,25 @@ def rate(matrix, q, qd):
 
 
 def coriolis_of_mass(mass, q, qd):
-    """Christoffel's C = (dM/dt + A - A')/2, A = d(M q̇)/dq at constant q̇."""
-    return [(rate(mass, q, qd) + a - a.T) / 2 for a in derivatives(mass @ qd, q)]
+    """Christoffel's C = (dM/dt + A - A')/2, A = d(M q̇)/dq at constant q̇; and by his symbols."""
+    symbols = twice_christoffel(mass, q)
+    rows = [(qd.T @ symbols_of_one) / 2 for symbols_of_one in symbols]
+    return [ca.vertcat(*rows)] + [(rate(mass, q, qd) + a - a.T) / 2 for a in derivatives(mass @ qd, q)]
+
+
+def twice_christoffel(mass, q):
+    """For each i the symmetric matrix of 2 Γ_ijk = ∂M_ij/∂q_k + ∂M_ik/∂q_j - ∂M_jk/∂q_i."""
+    n = q.numel()
+    by = ca.jacobian(ca.vec(mass), q)  # row j + n i is entry (i, j)
+    slope = [[[by[j + n * i, k] for k in range(n)] for j in range(n)] for i in range(n)]
+    found = []
+    for i in range(n):
+        symbols = ca.SX(n, n)
+        for j in range(n):
+            for k in range(j + 1):
+                symbols[j, k] = slope[max(i, j)][min(i, j)][k] + slope[max(i, k)][min(i, k)][j] - slope[j][k][i]
+        found.append(ca.tril2symm(symbols))
+    return found
 
 
 def coriolis_of_torques(torques, qd):
@@ -119,6 +136,17 @@ def lock_impacts(torques, x):
     before = torques(x.qd, x.qdd)
     columns = (before - torques(without(x.qd, k), without(x.qdd, k)) for k in range(x.q.numel()))
     return [ca.horzcat(*columns)]
+
+
+def lock_impacts_of_mass(friction, mass, x):
+    """Expanded: M_k q̈_k, and of the torques that are quadratic in q̇ all products with q̇_k, by Christoffel's symbols."""
+    n, symbols = x.q.numel(), twice_christoffel(mass, x.q)
+    impacts = mass @ ca.diag(x.qdd) + ca.diag(friction)
+    for k in range(n):
+        for i in range(n):
+            others = ca.dot(symbols[i][:, k], without(x.qd, k))
+            impacts[i, k] += (others + symbols[i][k, k] / 2 * x.qd[k]) * x.qd[k]
+    return [impacts]
 
 
 def lock_impacts_expanded(velocity_torques, friction, mass, x):

@@ -74,6 +74,7 @@ def from_textbook(arm, x, mass):
     impacts = [
         *derived.lock_impacts(lambda qd, qdd: textbook.inverse_dynamics(arm, x.q, qd, qdd), x),
         *derived.lock_impacts_expanded(of_velocities, textbook.friction(arm, x.qd), mass, x),
+        *derived.lock_impacts_of_mass(textbook.friction(arm, x.qd), mass, x),
     ]
     return common(arm, x, jacobian, mass, bias, torque_derivatives) | {
         "inverse_dynamics": torques,
@@ -151,6 +152,7 @@ def ours(arm: Arm, x: Arguments, listing):
     if not arm.has_friction():  # which stands among the rest of the torques
         coriolis += derived.coriolis_of_torques(built["bias_force"], x.qd)
         impacts += derived.lock_impacts_expanded(of_velocities, ca.SX(n, 1), mass, x)
+        impacts += derived.lock_impacts_of_mass(ca.SX(n, 1), mass, x)
     derivatives = pairs(built["inverse_dynamics"], x.q, x.qd)
     return common(arm, x, jacobian, mass, built["bias_force"], derivatives) | built | {
         "dynamic_manipulability_gradient": gradients,
@@ -197,6 +199,8 @@ def rebuild(program, x):
         "qd": lambda i: x.qd[i],
         "qdd": lambda i: x.qdd[i],
         "tau": lambda i: x.qdd[i],  # the third argument, whatever it is called
+        "wrench": lambda i: ca.SX(0),  # not an argument here
+        "payload": lambda i: ca.SX(0),
     }
     for op, *operands in program["steps"]:
         steps.append(MATH[op](*(read[kind](what) for kind, what in operands)))

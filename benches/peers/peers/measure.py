@@ -16,6 +16,7 @@ TOLERANCE = 1e-9
 VARIANTS = {
     "mass_matrix": ["local"],
     "geometric_jacobian": ["joints"],
+    "forward_dynamics": ["local"],
     "inverse_dynamics_derivatives": ["rows"],
     "forward_dynamics_derivatives": ["rows", "inverse"],
 }

@@ -99,7 +99,8 @@ def differences(errors, quantities):
         error = errors.get((quantity, peer))
         return "–" if error is None else f"{error:.0e}"
 
-    return table([*PEERS, *LOOPS], {QUANTITIES[q].title: [cell(q, peer) for peer in [*PEERS, *LOOPS]] for q in quantities})
+    peers = PEERS + [peer for peer in LOOPS if any(peer == other for _, other in errors)]
+    return table(peers, {QUANTITIES[q].title: [cell(q, peer) for peer in peers] for q in quantities})
 
 
 def table(columns, rows):

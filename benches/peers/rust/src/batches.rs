@@ -1,5 +1,7 @@
 //! Kernels of many states.
 
+use std::borrow::Borrow;
+use std::marker::PhantomData;
 use std::slice;
 
 use ulna::ArmBatch;
@@ -7,23 +9,23 @@ use ulna::nalgebra::SVector;
 
 use crate::Subject;
 use crate::layout;
+use crate::singles::place;
 
-/// Reads `count` vectors q, then as many of q̇, then of q̈ (or τ), and writes as many results.
+/// Reads `count` vectors q, then as many of q̇, then of q̈ (or τ), then wrenches for who wants them, and writes as many results.
 pub(crate) type BatchKernel = unsafe extern "C" fn(*const f64, usize, *mut f64);
 
-macro_rules! place {
-    (q) => {
-        0
-    };
-    (qd) => {
-        1
-    };
-    (qdd) => {
-        2
-    };
-    (tau) => {
-        2
-    };
+/// Where a batch kernel's arguments are.
+struct Arguments<'a> {
+    x: *const f64,
+    count: usize,
+    of: PhantomData<&'a f64>,
+}
+
+impl<'a> Arguments<'a> {
+    fn vectors<const K: usize>(&self, start: usize) -> &'a [SVector<f64, K>] {
+        // SAFETY: the caller of a `BatchKernel` passes so many numbers; a vector of fixed size is its components, contiguous.
+        unsafe { slice::from_raw_parts(self.x.add(start * self.count).cast(), self.count) }
+    }
 }
 
 macro_rules! define_batches {
@@ -38,14 +40,11 @@ macro_rules! define_batches {
         pub(crate) fn kernel<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Option<BatchKernel> {
             $(if quantity == stringify!($method).as_bytes() {
                 unsafe extern "C" fn batch<S: Subject<N>, const N: usize>(x: *const f64, count: usize, out: *mut f64) {
-                    let x = x.cast::<SVector<f64, N>>();
-                    // SAFETY: the caller passes 3 * count vectors of N numbers, and room for `count` results.
-                    unsafe {
-                        let vectors = |i: usize| slice::from_raw_parts(x.add(i * count), count);
-                        let out = slice::from_raw_parts_mut(out.cast::<$output>(), count);
-                        let written = S::ARM.$batch($(vectors(place!($argument))),+, out);
-                        assert!(written.is_ok(), "all slices have `count` entries");
-                    }
+                    let x = Arguments { x, count, of: PhantomData };
+                    // SAFETY: the caller passes room for `count` results.
+                    let out = unsafe { slice::from_raw_parts_mut(out.cast::<$output>(), count) };
+                    let written = S::arm().borrow().$batch($(x.vectors(place!(N $argument))),+, out);
+                    assert!(written.is_ok(), "all slices have `count` entries");
                 }
                 return layout::is_in_order::<$output>().then_some(batch::<S, N>);
             })+

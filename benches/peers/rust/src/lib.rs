@@ -10,6 +10,7 @@ mod layout;
 mod locks;
 mod singles;
 
+use std::borrow::Borrow;
 use std::ffi::{CStr, c_char};
 use std::ptr;
 
@@ -18,13 +19,13 @@ use ulna::{Arm, ArmBatch, Method, SerialChain};
 use batches::BatchKernel;
 use singles::Kernel;
 
-/// An arm of which there is one, so that a function without data can call it.
+/// An arm that a function without data can call.
 trait Subject<const N: usize> {
     /// What it is.
-    type Arm: Arm<N> + ArmBatch<N> + 'static;
+    type Arm: Arm<N> + ArmBatch<N>;
 
-    /// The one that there is.
-    const ARM: &'static Self::Arm;
+    /// One such, with no payload.
+    fn arm() -> impl Borrow<Self::Arm>;
 }
 
 /// The generated arm of a type.
@@ -38,12 +39,20 @@ macro_rules! finders {
         $(
             impl Subject<$n> for Generated<ulna_generated::$Arm> {
                 type Arm = ulna_generated::$Arm;
-                const ARM: &'static Self::Arm = &ulna_generated::$Arm;
+
+                #[inline(always)]
+                fn arm() -> impl Borrow<Self::Arm> {
+                    ulna_generated::$Arm::default()
+                }
             }
 
             impl Subject<$n> for Generic<ulna_generated::$Arm> {
                 type Arm = SerialChain<$n>;
-                const ARM: &'static Self::Arm = &ulna_generated::$Arm::CHAIN;
+
+                #[inline(always)]
+                fn arm() -> impl Borrow<Self::Arm> {
+                    const { &ulna_generated::$Arm::CHAIN }
+                }
             }
         )*
 

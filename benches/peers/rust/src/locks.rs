@@ -1,5 +1,7 @@
 //! What `lock_impacts` replaces: loops over inverse dynamics. Column k is τ before joint k locks, minus τ after.
 
+use std::borrow::Borrow;
+
 use ulna::Arm;
 use ulna::nalgebra::{SMatrix, SVector};
 
@@ -13,11 +15,14 @@ const QUANTITY: &[u8] = b"lock_impacts";
 /// As someone asks for one joint after the other: two inverse dynamics each.
 pub(crate) fn by_pairs<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Option<Kernel> {
     unsafe extern "C" fn pairs<S: Subject<N>, const N: usize>(out: *mut f64, x: *const f64) {
-        // SAFETY: the caller of a `Kernel` passes 3N numbers, and room for the result.
-        let x = unsafe { &*x.cast::<Arguments<N>>() };
+        // SAFETY: the caller of a `Kernel` passes the arguments, and room for the result.
+        let x = unsafe { Arguments::at(x) };
         let mut impacts = SMatrix::<f64, N, N>::zeros();
         for joint in 0..N {
-            let before = S::ARM.inverse_dynamics(&x.q, &x.qd, &x.last);
+            let before =
+                S::arm()
+                    .borrow()
+                    .inverse_dynamics(x.vector(0), x.vector(N), x.vector(2 * N));
             impacts.set_column(joint, &(before - locked::<S, N>(x, joint)));
         }
         // SAFETY: as above.
@@ -29,10 +34,12 @@ pub(crate) fn by_pairs<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Option
 /// With what is the same for all joints computed once: N + 1 inverse dynamics.
 pub(crate) fn by_one_more<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Option<Kernel> {
     unsafe extern "C" fn one_more<S: Subject<N>, const N: usize>(out: *mut f64, x: *const f64) {
-        // SAFETY: the caller of a `Kernel` passes 3N numbers, and room for the result.
-        let x = unsafe { &*x.cast::<Arguments<N>>() };
+        // SAFETY: the caller of a `Kernel` passes the arguments, and room for the result.
+        let x = unsafe { Arguments::at(x) };
         let mut impacts = SMatrix::<f64, N, N>::zeros();
-        let before = S::ARM.inverse_dynamics(&x.q, &x.qd, &x.last);
+        let before = S::arm()
+            .borrow()
+            .inverse_dynamics(x.vector(0), x.vector(N), x.vector(2 * N));
         for joint in 0..N {
             impacts.set_column(joint, &(before - locked::<S, N>(x, joint)));
         }
@@ -44,9 +51,11 @@ pub(crate) fn by_one_more<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Opt
 
 /// The torques while `joint` stands still and the others move as before.
 #[inline(always)]
-fn locked<S: Subject<N>, const N: usize>(x: &Arguments<N>, joint: usize) -> SVector<f64, N> {
-    let (mut rates, mut accelerations) = (x.qd, x.last);
+fn locked<S: Subject<N>, const N: usize>(x: Arguments, joint: usize) -> SVector<f64, N> {
+    let (mut rates, mut accelerations) = (*x.vector(N), *x.vector(2 * N));
     rates[joint] = 0.0;
     accelerations[joint] = 0.0;
-    S::ARM.inverse_dynamics(&x.q, &rates, &accelerations)
+    S::arm()
+        .borrow()
+        .inverse_dynamics(x.vector(0), &rates, &accelerations)
 }

@@ -1,5 +1,6 @@
 //! Kernels of one state.
 
+use std::borrow::Borrow;
 use std::ffi::CStr;
 use std::mem::transmute;
 
@@ -13,28 +14,45 @@ use crate::layout;
 /// x86-64 calling convention. The value is then made where it belongs, as in `let value = …`, and not copied there.
 pub(crate) type Kernel = unsafe extern "C" fn(*mut f64, *const f64);
 
-/// The 3N numbers that every kernel reads.
-#[repr(C)]
-pub(crate) struct Arguments<const N: usize> {
-    pub(crate) q: SVector<f64, N>,
-    pub(crate) qd: SVector<f64, N>,
-    /// q̈, or the torques.
-    pub(crate) last: SVector<f64, N>,
+/// In front of how many numbers of a state an argument stands.
+macro_rules! place {
+    ($n:ident q) => {
+        0
+    };
+    ($n:ident qd) => {
+        $n
+    };
+    ($n:ident qdd) => {
+        2 * $n
+    };
+    ($n:ident tau) => {
+        2 * $n
+    };
+    ($n:ident wrench) => {
+        3 * $n
+    };
 }
 
-macro_rules! argument {
-    ($x:ident q) => {
-        &$x.q
-    };
-    ($x:ident qd) => {
-        &$x.qd
-    };
-    ($x:ident qdd) => {
-        &$x.last
-    };
-    ($x:ident tau) => {
-        &$x.last
-    };
+pub(crate) use place;
+
+/// Where a kernel's arguments are: q, q̇, and q̈ or the torques; behind these, for who wants it, a wrench.
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub(crate) struct Arguments(*const f64);
+
+impl Arguments {
+    /// # Safety
+    /// There are as many numbers at `x` as the vectors reach that are asked for, for as long as this lives.
+    pub(crate) unsafe fn at(x: *const f64) -> Self {
+        Self(x)
+    }
+
+    /// The vector that starts so many numbers in.
+    #[inline(always)]
+    pub(crate) fn vector<const K: usize>(&self, start: usize) -> &SVector<f64, K> {
+        // SAFETY: by the contract of `at`; a vector of fixed size is its components, contiguous.
+        unsafe { &*self.0.add(start).cast() }
+    }
 }
 
 macro_rules! define_kernels {
@@ -54,22 +72,21 @@ macro_rules! define_kernels {
         /// The kernel of a method of an arm.
         pub(crate) fn kernel<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Option<Kernel> {
             $(if quantity == stringify!($method).as_bytes() {
-                extern "C" fn returned<S: Subject<N>, const N: usize>(x: &Arguments<N>) -> $output {
-                    S::ARM.$method($(argument!(x $argument)),+)
+                extern "C" fn returned<S: Subject<N>, const N: usize>(x: Arguments) -> $output {
+                    S::arm().borrow().$method($(x.vector(place!(N $argument))),+)
                 }
                 unsafe extern "C" fn copied<S: Subject<N>, const N: usize>(out: *mut f64, x: *const f64) {
-                    // SAFETY: the caller of a `Kernel` passes 3N numbers, and room for the result.
+                    // SAFETY: the caller of a `Kernel` passes the arguments, and room for the result.
                     unsafe {
-                        let x = &*x.cast::<Arguments<N>>();
-                        layout::write(&S::ARM.$method($(argument!(x $argument)),+), out);
+                        let x = Arguments::at(x);
+                        layout::write(&S::arm().borrow().$method($(x.vector(place!(N $argument))),+), out);
                     }
                 }
-                type Returns<T, const N: usize> = extern "C" fn(&Arguments<N>) -> T;
+                type Returns<T> = extern "C" fn(Arguments) -> T;
                 return Some(if size_of::<$output>() > 16 && layout::is_in_order::<$output>() {
                     // SAFETY: more than 16 bytes are returned where the first argument points. The caller of a `Kernel`
-                    // passes 3N numbers and room for the result; vectors of fixed size are their components, contiguous,
-                    // and whatever is made of numbers is aligned like a number.
-                    unsafe { transmute::<Returns<$output, N>, Kernel>(returned::<S, N>) }
+                    // passes the arguments and room for the result; whatever is made of numbers is aligned like a number.
+                    unsafe { transmute::<Returns<$output>, Kernel>(returned::<S, N>) }
                 } else {
                     // In registers, or in another order than the caller reads them.
                     copied::<S, N>
