@@ -143,18 +143,20 @@ def ours(arm: Arm, x: Arguments, listing):
     def torques(qd, qdd):
         return whole(methods["inverse_dynamics"], Given(x.q, qd, qdd), "inverse_dynamics")
 
+    still = ca.SX(n, 1)
+    bias = torques(x.qd, still) if arm.has_friction() else built["bias_force"]
+
     def of_velocities(qd):
-        still = ca.SX(n, 1)
         forces = [whole(methods["bias_force"], Given(x.q, rates, still), "bias_force") for rates in (qd, still)]
         return forces[0] - forces[1]
 
     coriolis, impacts = derived.coriolis_of_mass(mass, x.q, x.qd), derived.lock_impacts(torques, x)
     if not arm.has_friction():  # which stands among the rest of the torques
         coriolis += derived.coriolis_of_torques(built["bias_force"], x.qd)
-        impacts += derived.lock_impacts_expanded(of_velocities, ca.SX(n, 1), mass, x)
-        impacts += derived.lock_impacts_of_mass(ca.SX(n, 1), mass, x)
+        impacts += derived.lock_impacts_expanded(of_velocities, still, mass, x)
+        impacts += derived.lock_impacts_of_mass(still, mass, x)
     derivatives = pairs(built["inverse_dynamics"], x.q, x.qd)
-    return common(arm, x, jacobian, mass, built["bias_force"], derivatives) | built | {
+    return common(arm, x, jacobian, mass, bias, derivatives) | built | {
         "dynamic_manipulability_gradient": gradients,
         "jacobian_rate": derived.rate(jacobian, x.q, x.qd),
         "coriolis_matrix": coriolis,
