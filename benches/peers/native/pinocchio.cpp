@@ -263,19 +263,6 @@ void forward_dynamics_derivatives_by_rows(const double *x, double *out) {
     std::memcpy(out + 2 * N * N, w.data.Minv.data(), sizeof(double) * N * N);
 }
 
-// From the derivatives of the inverse dynamics, products of fixed size.
-void forward_dynamics_derivatives_by_inverse(const double *x, double *out) {
-    Square by_q(out), by_qd(out + N * N), by_tau(out + 2 * N * N);
-    const VectorN qdd = pinocchio::aba(w.model, w.data, Vector(x, N), Vector(x + N, N), driving(x), pinocchio::Convention::WORLD);
-    by_tau = pinocchio::computeMinverse(w.model, w.data);
-    by_tau.template triangularView<Eigen::StrictlyLower>() = by_tau.transpose();
-    Matrix<double, N, N> torque_by_q, torque_by_qd;
-    pinocchio::computeRNEADerivatives(w.model, w.data, Vector(x, N), Vector(x + N, N), qdd, torque_by_q, torque_by_qd, w.data.M);
-    if constexpr (FRICTION) torque_by_qd.diagonal() += friction_derivative(x + N);
-    by_q.noalias() = -by_tau * torque_by_q;
-    by_qd.noalias() = -by_tau * torque_by_qd;
-}
-
 void regressor(const double *x, double *out) {
     const auto &all = pinocchio::computeJointTorqueRegressor(w.model, w.data, Vector(x, N), Vector(x + N, N), Vector(x + 2 * N, N));
     std::memcpy(out, all.data(), sizeof(double) * 10 * N * N);
@@ -320,7 +307,6 @@ const struct {
     {"inverse_dynamics_derivatives/rows", inverse_dynamics_derivatives_by_rows},
     {"forward_dynamics_derivatives", forward_dynamics_derivatives},
     {"forward_dynamics_derivatives/rows", forward_dynamics_derivatives_by_rows},
-    {"forward_dynamics_derivatives/inverse", forward_dynamics_derivatives_by_inverse},
     {"regressor", regressor},
     {"lock_impacts", lock_impacts},
 };

@@ -18,7 +18,7 @@ VARIANTS = {
     "geometric_jacobian": ["joints"],
     "forward_dynamics": ["local"],
     "inverse_dynamics_derivatives": ["rows"],
-    "forward_dynamics_derivatives": ["rows", "inverse"],
+    "forward_dynamics_derivatives": ["rows"],
 }
 
 SINGLE = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
