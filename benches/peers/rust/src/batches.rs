@@ -1,6 +1,5 @@
 //! Kernels of many states.
 
-use std::borrow::Borrow;
 use std::marker::PhantomData;
 use std::slice;
 
@@ -43,7 +42,7 @@ macro_rules! define_batches {
                     let x = Arguments { x, count, of: PhantomData };
                     // SAFETY: the caller passes room for `count` results.
                     let out = unsafe { slice::from_raw_parts_mut(out.cast::<$output>(), count) };
-                    let written = S::arm().borrow().$batch($(x.vectors(place!(N $argument))),+, out);
+                    let written = S::arm().$batch($(x.vectors(place!(N $argument))),+, out);
                     assert!(written.is_ok(), "all slices have `count` entries");
                 }
                 return layout::is_in_order::<$output>().then_some(batch::<S, N>);

@@ -10,9 +10,9 @@ mod layout;
 mod locks;
 mod singles;
 
-use std::borrow::Borrow;
 use std::ffi::{CStr, c_char};
 use std::ptr;
+use std::sync::LazyLock;
 
 use ulna::{Arm, ArmBatch, Method, SerialChain};
 
@@ -22,10 +22,10 @@ use singles::Kernel;
 /// An arm that a function without data can call.
 trait Subject<const N: usize> {
     /// What it is.
-    type Arm: Arm<N> + ArmBatch<N>;
+    type Arm: Arm<N> + ArmBatch<N> + 'static;
 
     /// One such, with no payload.
-    fn arm() -> impl Borrow<Self::Arm>;
+    fn arm() -> &'static Self::Arm;
 }
 
 /// The generated arm of a type.
@@ -41,8 +41,14 @@ macro_rules! finders {
                 type Arm = ulna_generated::$Arm;
 
                 #[inline(always)]
-                fn arm() -> impl Borrow<Self::Arm> {
-                    ulna_generated::$Arm::default()
+                fn arm() -> &'static Self::Arm {
+                    static HELD: LazyLock<ulna_generated::$Arm> = LazyLock::new(Default::default);
+                    if size_of::<Self::Arm>() == 0 {
+                        // Nothing to hold, allocate or look for: not an instruction.
+                        Box::leak(Box::default())
+                    } else {
+                        &HELD
+                    }
                 }
             }
 
@@ -50,7 +56,7 @@ macro_rules! finders {
                 type Arm = SerialChain<$n>;
 
                 #[inline(always)]
-                fn arm() -> impl Borrow<Self::Arm> {
+                fn arm() -> &'static Self::Arm {
                     const { &ulna_generated::$Arm::CHAIN }
                 }
             }

@@ -1,7 +1,5 @@
 //! What `lock_impacts` replaces: loops over inverse dynamics. Column k is τ before joint k locks, minus τ after.
 
-use std::borrow::Borrow;
-
 use ulna::Arm;
 use ulna::nalgebra::{SMatrix, SVector};
 
@@ -19,10 +17,7 @@ pub(crate) fn by_pairs<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Option
         let x = unsafe { Arguments::at(x) };
         let mut impacts = SMatrix::<f64, N, N>::zeros();
         for joint in 0..N {
-            let before =
-                S::arm()
-                    .borrow()
-                    .inverse_dynamics(x.vector(0), x.vector(N), x.vector(2 * N));
+            let before = S::arm().inverse_dynamics(x.vector(0), x.vector(N), x.vector(2 * N));
             impacts.set_column(joint, &(before - locked::<S, N>(x, joint)));
         }
         // SAFETY: as above.
@@ -37,9 +32,7 @@ pub(crate) fn by_one_more<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Opt
         // SAFETY: the caller of a `Kernel` passes the arguments, and room for the result.
         let x = unsafe { Arguments::at(x) };
         let mut impacts = SMatrix::<f64, N, N>::zeros();
-        let before = S::arm()
-            .borrow()
-            .inverse_dynamics(x.vector(0), x.vector(N), x.vector(2 * N));
+        let before = S::arm().inverse_dynamics(x.vector(0), x.vector(N), x.vector(2 * N));
         for joint in 0..N {
             impacts.set_column(joint, &(before - locked::<S, N>(x, joint)));
         }
@@ -55,7 +48,5 @@ fn locked<S: Subject<N>, const N: usize>(x: Arguments, joint: usize) -> SVector<
     let (mut rates, mut accelerations) = (*x.vector(N), *x.vector(2 * N));
     rates[joint] = 0.0;
     accelerations[joint] = 0.0;
-    S::arm()
-        .borrow()
-        .inverse_dynamics(x.vector(0), &rates, &accelerations)
+    S::arm().inverse_dynamics(x.vector(0), &rates, &accelerations)
 }

@@ -1,6 +1,5 @@
 //! Kernels of one state.
 
-use std::borrow::Borrow;
 use std::ffi::CStr;
 use std::mem::transmute;
 
@@ -73,13 +72,13 @@ macro_rules! define_kernels {
         pub(crate) fn kernel<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Option<Kernel> {
             $(if quantity == stringify!($method).as_bytes() {
                 extern "C" fn returned<S: Subject<N>, const N: usize>(x: Arguments) -> $output {
-                    S::arm().borrow().$method($(x.vector(place!(N $argument))),+)
+                    S::arm().$method($(x.vector(place!(N $argument))),+)
                 }
                 unsafe extern "C" fn copied<S: Subject<N>, const N: usize>(out: *mut f64, x: *const f64) {
                     // SAFETY: the caller of a `Kernel` passes the arguments, and room for the result.
                     unsafe {
                         let x = Arguments::at(x);
-                        layout::write(&S::arm().borrow().$method($(x.vector(place!(N $argument))),+), out);
+                        layout::write(&S::arm().$method($(x.vector(place!(N $argument))),+), out);
                     }
                 }
                 type Returns<T> = extern "C" fn(Arguments) -> T;
