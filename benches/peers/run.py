@@ -22,11 +22,11 @@ def main():
     for name in options.arms:
         table = build.ROOT / "arms" / f"{name}.toml"
         model = arm.read(table)
-        libraries = build.everything(model, table)
-        kernels = measure.kernels(libraries, model)
+        libraries, quantities = build.everything(model, table)
+        kernels = measure.kernels(libraries, model, quantities)
         errors = measure.agreement(kernels, model)
         measure.time_in_turns(kernels, model, options.rounds)
-        sections.append(report.section(model, libraries, kernels, errors))
+        sections.append(report.section(model, libraries, kernels, errors, quantities))
     text = report.page(sections, options.rounds)
     options.output.write_text(text)
     print(text)

@@ -6,7 +6,7 @@ Frames here are the joints': what stands after a joint goes into the next one's 
 
 import math
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +22,10 @@ class Joint:
     mass: float
     com: np.ndarray  # in the joint's frame
     inertia: np.ndarray  # about the centroid, in the joint's axes
+    armature: float  # the rotor's inertia as the joint feels it
+    viscous: float
+    coulomb: float
+    smoothing: float  # rate over which Coulomb's friction turns its sign
 
 
 @dataclass
@@ -32,6 +36,15 @@ class Arm:
     base: np.ndarray  # world_from_base
     tool: np.ndarray  # last joint_from_tool
     task: list[int]  # rows of J in w_D
+
+    def has_friction(self):
+        return any(joint.viscous or joint.coulomb for joint in self.joints)
+
+
+def in_motion_alone(arm: Arm) -> Arm:
+    """The same without gravity and friction."""
+    joints = [replace(joint, viscous=0.0, coulomb=0.0) for joint in arm.joints]
+    return replace(arm, joints=joints, gravity=0 * arm.gravity)
 
 
 def sin_cos(angle):
@@ -78,6 +91,7 @@ def read(path: Path) -> Arm:
         xy, xz, yz = (i.get(key, 0.0) for key in ("xy", "xz", "yz"))
         inertia = np.array([[i["xx"], xy, xz], [xy, i["yy"], yz], [xz, yz, i["zz"]]])
         rotation = after[:3, :3]
+        motor, friction = row.get("motor", {}), row.get("friction", {})
         joints.append(
             Joint(
                 revolute=row.get("kind", "revolute") == "revolute",
@@ -85,6 +99,10 @@ def read(path: Path) -> Arm:
                 mass=link["mass"],
                 com=(after @ [*link["com"], 1.0])[:3],
                 inertia=rotation @ inertia @ rotation.T,
+                armature=float(motor.get("inertia", 0.0) * motor.get("ratio", 1.0) ** 2),
+                viscous=float(friction.get("viscous", 0.0)),
+                coulomb=float(friction.get("coulomb", 0.0)),
+                smoothing=float(friction.get("smoothing", 1e-3)),
             )
         )
     rows = table["task"]["rows"]

@@ -13,6 +13,7 @@ import casadi as ca
 
 from . import formulations
 from .arm import Arm
+from .quantities import ONE_MORE, PAIRS, QUANTITIES
 
 HERE = Path(__file__).resolve().parent.parent
 ROOT = HERE.parent.parent
@@ -42,8 +43,9 @@ def run(command, **options):
 
 
 def everything(arm: Arm, table: Path):
-    """Every library for one arm."""
+    """Every library for one arm, and the quantities that ulna has: nothing else is built of the others."""
     listing, rust = rust_libraries(table)
+    quantities = [name for name in QUANTITIES if name in listing["methods"]]
     x = formulations.Arguments(len(arm.joints))
     given = {
         "CasADi, CRBA": formulations.composites(arm, x),
@@ -52,7 +54,8 @@ def everything(arm: Arm, table: Path):
         "C of our programs": formulations.our_programs(arm, x, listing),
     }
     jobs = []
-    for peer, expressions in given.items():
+    for peer, ways in given.items():
+        expressions = {name: formulations.cheapest(x, ways[name]) for name in quantities if name in ways}
         source, counts = casadi_source(arm, peer, x, expressions)
         jobs += [("gcc", peer, flags, source, counts) for flags in C_FLAGS]
     source = pinocchio_source(arm)
@@ -64,7 +67,7 @@ def everything(arm: Arm, table: Path):
             name: {"total": len(program["steps"]), "sin_cos": 2 * len(program["angles"])}
             for name, program in listing["methods"].items()
         }
-    return compiled + rust
+    return compiled + rust, quantities
 
 
 def casadi_source(arm, peer, x, expressions):
@@ -105,13 +108,16 @@ def pinocchio_source(arm: Arm):
 
     placements = [arm.base @ arm.joints[0].placement, *(j.placement for j in arm.joints[1:])]
     joints = ",\n".join(
-        f"    {{{str(j.revolute).lower()}, {numbers(placement[:3].ravel())}, {j.mass!r}, {numbers(j.com)}, {numbers(j.inertia.ravel())}}}"
+        f"    {{{str(j.revolute).lower()}, {numbers(placement[:3].ravel())}, {j.mass!r}, {numbers(j.com)}, {numbers(j.inertia.ravel())},"
+        f" {j.armature!r}, {j.viscous!r}, {j.coulomb!r}, {j.smoothing!r}}}"
         for j, placement in zip(arm.joints, placements)
     )
     header = f"""constexpr int N = {len(arm.joints)};
-const struct {{ bool revolute; double placement[12], mass, com[3], inertia[9]; }} JOINTS[N] = {{
+const struct {{ bool revolute; double placement[12], mass, com[3], inertia[9], armature, viscous, coulomb, smoothing; }} JOINTS[N] = {{
 {joints}
 }};
+constexpr bool FRICTION = {str(arm.has_friction()).lower()};
+const int TASK[] = {{{", ".join(map(str, arm.task))}}};
 const double TOOL[12] = {numbers(arm.tool[:3].ravel())};
 const double GRAVITY[3] = {numbers(arm.gravity)};
 """
@@ -136,10 +142,11 @@ def compiled_library(compiler, peer, flags, source, operations):
 
 
 def pinocchio_options():
-    """Header-only, so that the flags reach all of it."""
+    """Header-only, so that the flags reach all of it. CasADi's wheel carries Eigen's headers, of the version that Debian has too."""
     import pinocchio
 
     prefix = next(p for p in Path(pinocchio.__file__).parents if p.name == "cmeel.prefix")
+    eigen = Path(ca.__file__).parent / "include/eigen3"
     return [
         "-std=c++17",
         "-w",
@@ -148,7 +155,7 @@ def pinocchio_options():
         "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
         "-DBOOST_FUSION_INVOKE_MAX_ARITY=12",
         f"-isystem{prefix / 'include'}",
-        "-isystem/usr/include/eigen3",
+        f"-isystem{eigen}",
     ]
 
 
@@ -164,6 +171,8 @@ def rust_libraries(table: Path):
             Library("ulna", flags, path, "kernel", "returning"),
             Library("ulna, batch", flags, path, "batch_kernel", "batch"),
             Library("ulna, generic path", flags, path, "generic_kernel", "returning"),
+            Library(PAIRS, flags, path, "pairs_kernel", "returning"),
+            Library(ONE_MORE, flags, path, "one_more_kernel", "returning"),
         ]
     listing = json.loads(run([BUILD / "rust-default/release/listing", table]))
     return listing, libraries

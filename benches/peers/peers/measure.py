@@ -12,8 +12,14 @@ from .quantities import QUANTITIES
 
 TOLERANCE = 1e-9
 
-# Two of Pinocchio's ways to the same quantity; the faster one is reported.
-VARIANTS = {"mass_matrix": ["local"], "geometric_jacobian": ["joints"]}
+# Other ways of Pinocchio's to the same quantity; the fastest one is reported.
+VARIANTS = {
+    "mass_matrix": ["local"],
+    "geometric_jacobian": ["joints"],
+    "forward_dynamics": ["local"],
+    "inverse_dynamics_derivatives": ["rows"],
+    "forward_dynamics_derivatives": ["rows"],
+}
 
 SINGLE = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)
 BATCH = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_long, ctypes.c_void_p)
@@ -25,17 +31,17 @@ class Kernel:
     """One quantity of one library."""
 
     def __init__(self, library: Library, arm: Arm, quantity: str, variant: str):
-        self.library, self.quantity = library, quantity
-        self.width, self.size = 3 * len(arm.joints), QUANTITIES[quantity](len(arm.joints))
+        self.library, self.quantity, self.variant = library, quantity, variant
+        self.width, self.size = 3 * len(arm.joints), QUANTITIES[quantity].size(len(arm.joints))
         find = getattr(ctypes.CDLL(str(library.path)), library.symbol)
         find.argtypes, find.restype = [ctypes.c_char_p] * 2, ctypes.c_void_p
-        self.address = find(arm.name.encode(), f"{quantity}{variant}".encode())
+        self.address = find(arm.name.encode(), f"{quantity}/{variant}".rstrip("/").encode())
         self.kind = library.kind
         self.times = np.array([])
 
     def values(self, x):
-        """The results for every row of x."""
-        out = np.zeros((len(x), self.size))
+        """The results for every row of x; not a number where nothing was written."""
+        out = np.full((len(x), self.size), np.nan)
         if self.kind == "batch":
             for states, results in zip(blocks(x), range(0, len(x), BLOCK)):
                 BATCH(self.address)(states.ctypes.data, states.size // self.width, out[results:].ctypes.data)
@@ -53,12 +59,12 @@ def blocks(x):
         yield np.ascontiguousarray(states.reshape(len(states), 3, -1).transpose(1, 0, 2))
 
 
-def kernels(libraries, arm):
+def kernels(libraries, arm, quantities):
     every = (
         Kernel(library, arm, quantity, variant)
         for library in libraries
-        for quantity in QUANTITIES
-        for variant in ["", *(f"/{v}" for v in VARIANTS.get(quantity, []))]
+        for quantity in quantities
+        for variant in ["", *VARIANTS.get(quantity, [])]
     )
     return [kernel for kernel in every if kernel.address]
 
@@ -76,11 +82,12 @@ def inputs(arm, count, seed):
 def agreement(kernels, arm, count=300, seed=1):
     """The largest relative difference of each library from the median of all, by quantity; stops where one is too large."""
     x, worst = inputs(arm, count, seed), {}
-    for quantity in QUANTITIES:
-        same = [kernel for kernel in kernels if kernel.quantity == quantity]
+    for quantity, same in by_quantity(kernels):
         results = np.array([whole(kernel, kernel.values(x)) for kernel in same])
         middle = np.median(results, axis=0)
-        errors = (abs(results - middle).max(axis=2) / abs(middle).max(axis=1)).max(axis=1)
+        largest = abs(middle).max(axis=1)
+        largest[largest == 0] = 1  # where all is 0, as potential energy without gravity
+        errors = (abs(results - middle).max(axis=2) / largest).max(axis=1)
         for kernel, error in zip(same, errors):
             key = (quantity, kernel.library.peer)
             worst[key] = max(worst.get(key, 0.0), error if np.isfinite(error) else np.inf)
@@ -90,13 +97,33 @@ def agreement(kernels, arm, count=300, seed=1):
     return worst
 
 
+def by_quantity(kernels):
+    """Each quantity with its kernels."""
+    names = dict.fromkeys(kernel.quantity for kernel in kernels)
+    return [(name, [kernel for kernel in kernels if kernel.quantity == name]) for name in names]
+
+
+# Of a link's ten, in our order: Pinocchio has I as xx, xy, yy, xz, yz, zz.
+PARAMETERS = [0, 1, 2, 3, 4, 5, 7, 6, 8, 9]
+
+
 def whole(kernel, values):
-    """Pinocchio leaves M in its upper triangle."""
-    if (kernel.library.peer, kernel.quantity) != ("Pinocchio", "mass_matrix"):
+    """As the others have it: Pinocchio leaves M and M⁻¹ in their upper triangles, some matrices by rows, parameters in another order."""
+    if kernel.library.peer != "Pinocchio":
         return values
-    n = kernel.width // 3
-    upper = np.triu(values.reshape(-1, n, n).transpose(0, 2, 1))
-    return (upper + np.triu(upper, 1).transpose(0, 2, 1)).reshape(values.shape)
+    n, name = kernel.width // 3, f"{kernel.quantity}/{kernel.variant}"
+    if kernel.quantity == "regressor":
+        return values.reshape(-1, n, 10, n)[:, :, PARAMETERS].reshape(values.shape)
+    matrices = values.reshape(len(values), -1, n, n) if kernel.size % (n * n) == 0 else None
+    if kernel.variant == "rows" or name == "inverse_mass_matrix/":
+        matrices = matrices.transpose(0, 1, 3, 2)
+    elif kernel.quantity != "mass_matrix":
+        return values
+    if kernel.quantity in ("mass_matrix", "inverse_mass_matrix"):
+        # The last two axes are columns and rows.
+        lower = np.tril(matrices)
+        matrices = lower + np.tril(lower, -1).transpose(0, 1, 3, 2)
+    return matrices.reshape(values.shape)
 
 
 class Peer(ctypes.Structure):
@@ -108,8 +135,7 @@ def time_in_turns(kernels, arm, rounds, count=8 * BLOCK, seed=2):
     timer = timer_library()
     x = inputs(arm, count, seed)
     in_blocks = np.concatenate([block.ravel() for block in blocks(x)])
-    for quantity in QUANTITIES:
-        same = [kernel for kernel in kernels if kernel.quantity == quantity]
+    for _, same in by_quantity(kernels):
         pointers = [Peer(**{kernel.kind: kernel.address}) for kernel in same]
         seconds, out = np.zeros((rounds, len(same))), np.zeros(BLOCK * same[0].size)
         timer.time_in_turns(

@@ -53,7 +53,7 @@ def mass_matrix_of_link_jacobians(arm, q):
         j = ca.horzcat(*columns, ca.SX(6, len(poses) - i - 1))
         turned = rotation.T @ j[3:, :]
         mass += link.mass * j[:3, :].T @ j[:3, :] + turned.T @ number(link.inertia) @ turned
-    return mass
+    return mass + rotors(arm)
 
 
 def skew(v):
@@ -88,11 +88,30 @@ def mass_matrix_of_composites(arm, q):
         for j in reversed(range(i)):
             force = transforms[j + 1].T @ force
             mass[i, j] = mass[j, i] = axes[j].T @ force
-    return mass
+    return mass + rotors(arm)
+
+
+def rotors(arm):
+    """What the motors' rotors add to M."""
+    return number(np.diag([joint.armature for joint in arm.joints]))
+
+
+def friction(arm, qd):
+    """Viscous, and Coulomb's, smoothed."""
+    return ca.vertcat(*(one_friction(joint, qd[i]) for i, joint in enumerate(arm.joints)))
+
+
+def one_friction(joint, rate):
+    torque = ca.SX(1, 1)
+    if joint.viscous:
+        torque += joint.viscous * rate
+    if joint.coulomb:
+        torque += joint.coulomb * rate / ca.sqrt(rate**2 + joint.smoothing**2)
+    return torque
 
 
 def inverse_dynamics(arm, q, qd, qdd):
-    """Recursive Newton-Euler (Craig, Introduction to Robotics, eq. 6.45-6.53), gravity as the base's acceleration."""
+    """Recursive Newton-Euler (Craig, Introduction to Robotics, eq. 6.45-6.53), gravity as the base's acceleration; rotors, friction."""
     w, dw, a = ca.SX(3, 1), ca.SX(3, 1), number(-arm.base[:3, :3].T @ arm.gravity)
     links = []
     for i, joint in enumerate(arm.joints):
@@ -113,4 +132,4 @@ def inverse_dynamics(arm, q, qd, qdd):
         torque.append((n if joint.revolute else f)[2])
         f = rotation @ f
         n = rotation @ n + ca.cross(p, f)
-    return ca.vertcat(*reversed(torque))
+    return ca.vertcat(*reversed(torque)) + rotors(arm) @ qdd + friction(arm, qd)

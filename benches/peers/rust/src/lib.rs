@@ -1,142 +1,98 @@
 //! ulna's methods behind C functions, so that one timer can call every peer in the same way.
+//!
+//! Arms and methods come from their tables: neither a new arm nor a new method is an edit here.
 
-// Matrices and pairs go from Rust to Rust only.
+// Matrices and tuples go from Rust to Rust only.
 #![allow(improper_ctypes_definitions)]
 
+mod batches;
+mod layout;
+mod locks;
+mod singles;
+
 use std::ffi::{CStr, c_char};
-use std::mem::{MaybeUninit, offset_of, transmute};
-use std::slice;
+use std::ptr;
+use std::sync::LazyLock;
 
-use ulna::nalgebra::{SMatrix, SVector};
-use ulna::{Arm, ArmBatch};
+use ulna::{Arm, ArmBatch, Method, SerialChain};
 
-/// Returns its results one after the other, matrices by columns; for C, a function that is told where they go, by the
-/// x86-64 calling convention. The value is then made where it belongs, as in `let value = …`, and not copied there.
-type Kernel = unsafe extern "C" fn(*mut f64, *const f64);
+use batches::BatchKernel;
+use singles::Kernel;
 
-/// A small value, made larger than what is returned in registers.
-#[repr(C)]
-struct Roomy<T> {
-    value: T,
-    room: [MaybeUninit<f64>; 2],
+/// An arm that a function without data can call.
+trait Subject<const N: usize> {
+    /// What it is.
+    type Arm: Arm<N> + ArmBatch<N> + 'static;
+
+    /// One such, with no payload.
+    fn arm() -> &'static Self::Arm;
 }
 
-/// A kernel of one value: numbers alone, contiguous. It reads q, q̇ and q̈ (or τ) one after the other.
-macro_rules! kernel {
-    ($n:literal, $result:ty, |$q:ident, $qd:ident, $qdd:ident| $value:expr) => {{
-        type Arguments = [SVector<f64, $n>; 3];
-        extern "C" fn value([$q, $qd, $qdd]: &Arguments) -> $result {
-            $value
-        }
-        extern "C" fn roomy(x: &Arguments) -> Roomy<$result> {
-            Roomy {
-                value: value(x),
-                room: [MaybeUninit::uninit(); 2],
-            }
-        }
-        type Direct = extern "C" fn(&Arguments) -> $result;
-        type ByRoom = extern "C" fn(&Arguments) -> Roomy<$result>;
-        // SAFETY: more than 16 bytes are returned where the first argument points. The caller of a `Kernel` passes
-        // 3N numbers and room for the result; vectors of fixed size are their components, contiguous, and whatever
-        // is made of numbers is aligned like a number.
-        Some(unsafe {
-            if size_of::<$result>() > 16 {
-                transmute::<Direct, Kernel>(value)
-            } else {
-                transmute::<ByRoom, Kernel>(roomy)
-            }
-        })
-    }};
-}
+/// The generated arm of a type.
+struct Generated<A>(A);
 
-/// The kernel of `$quantity` of the arm `$arm`.
-macro_rules! quantity {
-    ($arm:expr, $n:literal, $quantity:expr) => {
-        match $quantity {
-            b"geometric_jacobian" => kernel!($n, SMatrix<f64, 6, $n>, |q, _qd, _qdd| $arm.geometric_jacobian(q)),
-            b"mass_matrix" => kernel!($n, SMatrix<f64, $n, $n>, |q, _qd, _qdd| $arm.mass_matrix(q)),
-            b"mass_matrix_derivatives" => {
-                kernel!($n, [SMatrix<f64, $n, $n>; $n], |q, _qd, _qdd| $arm.mass_matrix_derivatives(q))
-            }
-            b"dynamic_manipulability_gradient" => {
-                // Written as it is; the value comes first.
-                const {
-                    assert!(offset_of!((f64, SVector<f64, $n>), 0) == 0);
-                }
-                kernel!($n, (f64, SVector<f64, $n>), |q, _qd, _qdd| $arm
-                    .dynamic_manipulability_gradient(q))
-            },
-            b"inverse_dynamics" => kernel!($n, SVector<f64, $n>, |q, qd, qdd| $arm.inverse_dynamics(q, qd, qdd)),
-            b"forward_dynamics" => kernel!($n, SVector<f64, $n>, |q, qd, tau| $arm.forward_dynamics(q, qd, tau)),
-            _ => None,
-        }
-    };
-}
-
-/// Reads `count` vectors q, then as many of q̇, then of q̈ (or τ), and writes as many results.
-type BatchKernel = unsafe extern "C" fn(*const f64, usize, *mut f64);
-
-/// A batch kernel whose results are of type `$result`: numbers alone, contiguous.
-macro_rules! batch {
-    ($arm:expr, $n:literal, $result:ty, $method:ident($($argument:tt),+)) => {{
-        unsafe extern "C" fn kernel(x: *const f64, count: usize, out: *mut f64) {
-            let x = x.cast::<SVector<f64, $n>>();
-            // SAFETY: the caller passes 3 * count vectors of N numbers, and room for `count` results.
-            unsafe {
-                let vectors = |i: usize| slice::from_raw_parts(x.add(i * count), count);
-                let out = slice::from_raw_parts_mut(out.cast::<$result>(), count);
-                let written = $arm.$method($(vectors($argument)),+, out);
-                assert!(written.is_ok(), "all slices have `count` entries");
-            }
-        }
-        Some(kernel as BatchKernel)
-    }};
-}
-
-/// The batch kernel of `$quantity` of the arm `$arm`.
-macro_rules! batch_quantity {
-    ($arm:expr, $n:literal, $quantity:expr) => {
-        match $quantity {
-            b"geometric_jacobian" => {
-                batch!($arm, $n, SMatrix<f64, 6, $n>, geometric_jacobian_batch(0))
-            }
-            b"mass_matrix" => batch!($arm, $n, SMatrix<f64, $n, $n>, mass_matrix_batch(0)),
-            b"mass_matrix_derivatives" => {
-                batch!($arm, $n, [SMatrix<f64, $n, $n>; $n], mass_matrix_derivatives_batch(0))
-            }
-            b"dynamic_manipulability_gradient" => {
-                batch!($arm, $n, (f64, SVector<f64, $n>), dynamic_manipulability_gradient_batch(0))
-            }
-            b"inverse_dynamics" => {
-                batch!($arm, $n, SVector<f64, $n>, inverse_dynamics_batch(0, 1, 2))
-            }
-            b"forward_dynamics" => {
-                batch!($arm, $n, SVector<f64, $n>, forward_dynamics_batch(0, 1, 2))
-            }
-            _ => None,
-        }
-    };
-}
+/// The generic path over the same arm.
+struct Generic<A>(A);
 
 macro_rules! finders {
     ($(($Arm:ident, $name:ident, $n:literal))*) => {
+        $(
+            impl Subject<$n> for Generated<ulna_generated::$Arm> {
+                type Arm = ulna_generated::$Arm;
+
+                #[inline(always)]
+                fn arm() -> &'static Self::Arm {
+                    static HELD: LazyLock<ulna_generated::$Arm> = LazyLock::new(Default::default);
+                    if size_of::<Self::Arm>() == 0 {
+                        // Nothing to hold, allocate or look for: not an instruction.
+                        Box::leak(Box::default())
+                    } else {
+                        &HELD
+                    }
+                }
+            }
+
+            impl Subject<$n> for Generic<ulna_generated::$Arm> {
+                type Arm = SerialChain<$n>;
+
+                #[inline(always)]
+                fn arm() -> &'static Self::Arm {
+                    const { &ulna_generated::$Arm::CHAIN }
+                }
+            }
+        )*
+
         fn generated(arm: &[u8], quantity: &[u8]) -> Option<Kernel> {
             $(if arm == stringify!($name).as_bytes() {
-                return quantity!(ulna_generated::$Arm::default(), $n, quantity);
+                return singles::kernel::<Generated<ulna_generated::$Arm>, $n>(quantity);
             })*
             None
         }
 
         fn batched(arm: &[u8], quantity: &[u8]) -> Option<BatchKernel> {
             $(if arm == stringify!($name).as_bytes() {
-                return batch_quantity!(ulna_generated::$Arm::default(), $n, quantity);
+                return batches::kernel::<Generated<ulna_generated::$Arm>, $n>(quantity);
             })*
             None
         }
 
         fn generic(arm: &[u8], quantity: &[u8]) -> Option<Kernel> {
             $(if arm == stringify!($name).as_bytes() {
-                return quantity!(ulna_generated::$Arm::CHAIN, $n, quantity);
+                return singles::kernel::<Generic<ulna_generated::$Arm>, $n>(quantity);
+            })*
+            None
+        }
+
+        fn by_pairs(arm: &[u8], quantity: &[u8]) -> Option<Kernel> {
+            $(if arm == stringify!($name).as_bytes() {
+                return locks::by_pairs::<Generated<ulna_generated::$Arm>, $n>(quantity);
+            })*
+            None
+        }
+
+        fn by_one_more(arm: &[u8], quantity: &[u8]) -> Option<Kernel> {
+            $(if arm == stringify!($name).as_bytes() {
+                return locks::by_one_more::<Generated<ulna_generated::$Arm>, $n>(quantity);
             })*
             None
         }
@@ -145,41 +101,38 @@ macro_rules! finders {
 
 ulna_generated::for_each_arm!(finders);
 
-/// The generated kernel of a quantity, or null.
-///
-/// # Safety
-/// Both arguments are C strings.
+/// The name of a method of [`Arm`]: null from the first number on that none has.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn kernel(arm: *const c_char, quantity: *const c_char) -> Option<Kernel> {
-    // SAFETY: by contract.
-    let (arm, quantity) = unsafe { (CStr::from_ptr(arm), CStr::from_ptr(quantity)) };
-    generated(arm.to_bytes(), quantity.to_bytes())
+pub extern "C" fn quantity(number: usize) -> *const c_char {
+    Method::ALL
+        .get(number)
+        .map_or(ptr::null(), |method| singles::name(*method).as_ptr())
 }
 
-/// The batch kernel of a quantity, or null.
-///
-/// # Safety
-/// Both arguments are C strings.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn batch_kernel(
-    arm: *const c_char,
-    quantity: *const c_char,
-) -> Option<BatchKernel> {
-    // SAFETY: by contract.
-    let (arm, quantity) = unsafe { (CStr::from_ptr(arm), CStr::from_ptr(quantity)) };
-    batched(arm.to_bytes(), quantity.to_bytes())
+macro_rules! export {
+    ($(#[$doc:meta] $symbol:ident -> $Kernel:ty = $find:ident;)*) => {$(
+        #[$doc]
+        ///
+        /// # Safety
+        /// Both arguments are C strings.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $symbol(arm: *const c_char, quantity: *const c_char) -> Option<$Kernel> {
+            // SAFETY: by contract.
+            let (arm, quantity) = unsafe { (CStr::from_ptr(arm), CStr::from_ptr(quantity)) };
+            $find(arm.to_bytes(), quantity.to_bytes())
+        }
+    )*};
 }
 
-/// The single kernel by the generic path.
-///
-/// # Safety
-/// Both arguments are C strings.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn generic_kernel(
-    arm: *const c_char,
-    quantity: *const c_char,
-) -> Option<Kernel> {
-    // SAFETY: by contract.
-    let (arm, quantity) = unsafe { (CStr::from_ptr(arm), CStr::from_ptr(quantity)) };
-    generic(arm.to_bytes(), quantity.to_bytes())
+export! {
+    /// The generated kernel of a quantity, or null.
+    kernel -> Kernel = generated;
+    /// The batch kernel of a quantity, or null.
+    batch_kernel -> BatchKernel = batched;
+    /// The single kernel by the generic path, or null.
+    generic_kernel -> Kernel = generic;
+    /// All lock impacts by two inverse dynamics for each joint; null for any other quantity.
+    pairs_kernel -> Kernel = by_pairs;
+    /// All lock impacts by one inverse dynamics for each joint and one before; null for any other quantity.
+    one_more_kernel -> Kernel = by_one_more;
 }
