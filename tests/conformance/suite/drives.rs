@@ -4,6 +4,7 @@ use nalgebra::{SMatrix, SVector};
 use ulna::proof::State;
 use ulna::{Arm, Friction, Motor, SerialChain};
 
+use super::differences::derivative;
 use super::{at_states, near};
 
 /// The same arm without rotors and without friction.
@@ -34,6 +35,39 @@ fn friction<const N: usize>(chain: &SerialChain<N>, qd: &SVector<f64, N>) -> SVe
         } = chain.joints[i].friction;
         viscous * qd[i] + coulomb * qd[i] / qd[i].hypot(smoothing)
     })
+}
+
+/// Its slope by each joint's own rate: `viscous + coulomb ε² / (q̇² + ε²)^(3/2)`.
+pub(super) fn friction_slope<const N: usize>(
+    chain: &SerialChain<N>,
+    qd: &SVector<f64, N>,
+) -> SMatrix<f64, N, N> {
+    SMatrix::from_diagonal(&SVector::from_fn(|i, _| {
+        let Friction {
+            viscous,
+            coulomb,
+            smoothing,
+        } = chain.joints[i].friction;
+        viscous + coulomb * smoothing.powi(2) / qd[i].hypot(smoothing).powi(3)
+    }))
+}
+
+/// Inverse dynamics have friction's slope in their derivative by the rates: where Coulomb's friction turns, and far from there.
+pub(crate) fn friction_has_its_slope<const N: usize>(arm: &impl Arm<N>, chain: &SerialChain<N>) {
+    let bare = bare(chain);
+    at_states(chain, |State { q, qd, qdd, .. }| {
+        for size in [0.0, 1e-3, 1.0] {
+            let qd = qd * size;
+            let (_, by_qd) = arm.inverse_dynamics_derivatives(&q, &qd, &qdd);
+            let (_, of_links) = bare.inverse_dynamics_derivatives(&q, &qd, &qdd);
+            let expected = of_links + friction_slope(chain, &qd);
+            near(&by_qd, &expected, 0.0, 1e-13, "dtau/dqd");
+            // A step that resolves Coulomb's friction.
+            let columns = derivative(&qd, 1e-4, |qd| arm.friction_torque(qd));
+            let slope = friction_slope(chain, &qd);
+            near(columns.iter().flatten(), &slope, 0.0, 1e-4, "df/dqd");
+        }
+    });
 }
 
 fn rotors<const N: usize>(chain: &SerialChain<N>) -> SVector<f64, N> {

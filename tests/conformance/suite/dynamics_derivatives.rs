@@ -5,6 +5,7 @@ use ulna::proof::State;
 use ulna::{Arm, SerialChain};
 
 use super::differences::derivative;
+use super::drives::friction_slope;
 use super::exponentials::{Exponentials, slope, slopes};
 use super::{at_states, near};
 
@@ -17,8 +18,12 @@ pub(crate) fn torque_derivatives_agree_with_differences<const N: usize>(
         let scale = arm.inverse_dynamics(&q, &qd, &qdd).amax();
         let columns = derivative(&q, 0.05, |q| arm.inverse_dynamics(q, &qd, &qdd));
         near(&by_q, columns.iter().flatten(), scale, 1e-10, "dtau/dq");
-        let columns = derivative(&qd, 0.5, |qd| arm.inverse_dynamics(&q, qd, &qdd));
-        near(&by_qd, columns.iter().flatten(), scale, 1e-12, "dtau/dqd");
+        // Without friction, which such a step does not resolve.
+        let of_links =
+            |qd: &SVector<f64, N>| arm.inverse_dynamics(&q, qd, &qdd) - arm.friction_torque(qd);
+        let columns = derivative(&qd, 0.5, of_links);
+        let found = by_qd - friction_slope(chain, &qd);
+        near(&found, columns.iter().flatten(), scale, 1e-12, "dtau/dqd");
     });
 }
 
@@ -61,12 +66,13 @@ pub(crate) fn torque_derivatives_at_rest_are_those_of_the_mass_matrix_and_of_gra
         let expected = SMatrix::from_columns(&columns) + stiffness;
         near(&by_q, &expected, scale, 1e-12, "dtau/dq at rest");
         near(&stiffness, &stiffness.transpose(), 0.0, 1e-12, "dg/dq");
-        assert_eq!(by_qd, SMatrix::<f64, N, N>::zeros(), "dtau/dqd at rest");
+        let friction = friction_slope(chain, &rest);
+        near(&by_qd, &friction, 0.0, 1e-15, "dtau/dqd at rest");
     });
 }
 
 /// `∂τ_i/∂q̇_j = Σ_k (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i) q̇_k`, twice the Coriolis matrix of Christoffel's symbols:
-/// its symmetric part is dM/dt.
+/// its symmetric part is dM/dt. Friction apart.
 pub(crate) fn torque_derivatives_by_rates_are_twice_the_coriolis_matrix<const N: usize>(
     arm: &impl Arm<N>,
     chain: &SerialChain<N>,
@@ -74,6 +80,7 @@ pub(crate) fn torque_derivatives_by_rates_are_twice_the_coriolis_matrix<const N:
     let exponentials = Exponentials::new(chain);
     at_states(chain, |State { q, qd, qdd, .. }| {
         let (_, by_qd) = arm.inverse_dynamics_derivatives(&q, &qd, &qdd);
+        let by_qd = by_qd - friction_slope(chain, &qd);
         let dm = slopes(&exponentials.mass_matrix(&Exponentials::dual(&q)));
         let rate: SMatrix<f64, N, N> = (0..N).map(|k| dm[k] * qd[k]).sum();
         let turned = SMatrix::<f64, N, N>::from_fn(|i, j| (dm[j] * qd)[i] - (dm[i] * qd)[j]);
@@ -93,8 +100,12 @@ pub(crate) fn acceleration_derivatives_agree_with_differences<const N: usize>(
         let scale = arm.forward_dynamics(&q, &qd, &tau).amax();
         let columns = derivative(&q, 0.01, |q| arm.forward_dynamics(q, &qd, &tau));
         near(&by_q, columns.iter().flatten(), scale, 1e-7, "dqdd/dq");
-        let columns = derivative(&qd, 0.5, |qd| arm.forward_dynamics(&q, qd, &tau));
-        near(&by_qd, columns.iter().flatten(), scale, 1e-9, "dqdd/dqd");
+        // Without friction, which such a step does not resolve.
+        let of_links =
+            |qd: &SVector<f64, N>| arm.forward_dynamics(&q, qd, &(tau + arm.friction_torque(qd)));
+        let columns = derivative(&qd, 0.5, of_links);
+        let found = by_qd + by_tau * friction_slope(chain, &qd);
+        near(&found, columns.iter().flatten(), scale, 1e-9, "dqdd/dqd");
         let columns = derivative(&tau, 0.5, |tau| arm.forward_dynamics(&q, &qd, tau));
         near(&by_tau, columns.iter().flatten(), scale, 1e-9, "dqdd/dtau");
     });

@@ -44,6 +44,7 @@ macro_rules! conformance {
             dynamics::a_wrench_does_the_work_of_the_tool
             drives::rotors_add_to_the_diagonal_of_the_mass_matrix
             drives::friction_is_its_closed_form
+            drives::friction_has_its_slope
             drives::nothing_else_sees_rotors_and_friction
             lock::lock_impacts_are_those_of_the_papers_recursion
             lock::lock_impacts_are_differences_of_inverse_dynamics

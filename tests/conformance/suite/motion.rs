@@ -113,7 +113,7 @@ pub(crate) fn rates_follow_from_the_jacobians_derivatives<const N: usize>(
     });
 }
 
-/// d/dt (T + U) = q̇ᵀ τ along the motion that τ makes, and T = ½ q̇ᵀ M q̇.
+/// d/dt (T + U) = q̇ᵀ τ along the motion that τ makes, friction apart, and T = ½ q̇ᵀ M q̇.
 pub(crate) fn torques_do_the_work_that_energy_gains<const N: usize>(
     arm: &impl Arm<N>,
     chain: &SerialChain<N>,
@@ -139,7 +139,8 @@ pub(crate) fn torques_do_the_work_that_energy_gains<const N: usize>(
             SVector::<f64, 1>::new(arm.kinetic_energy(&q, &qd) + arm.potential_energy(&q))
         };
         let [gain] = derivative(&SVector::<f64, 1>::zeros(), 0.02, energy);
-        let torque = arm.inverse_dynamics(&q, &qd, &qdd);
+        // Friction takes power, and no energy gains it.
+        let torque = arm.inverse_dynamics(&q, &qd, &qdd) - arm.friction_torque(&qd);
         let scale = torque.abs().dot(&qd.abs());
         near(&gain, [&qd.dot(&torque)], scale, 1e-9, "power");
     });
