@@ -275,6 +275,7 @@ void lock_impacts(const double *x, double *out) {
     for (int k = 0; k < N; ++k) {
         rates[k] = accelerations[k] = 0;
         impacts.col(k) = before - torques(x, rates.data(), accelerations.data());
+        if constexpr (FRICTION) impacts(k, k) -= friction(x + N)[k];
         rates[k] = x[N + k];
         accelerations[k] = x[2 * N + k];
     }

@@ -129,7 +129,7 @@ def product(factors):
 
 
 def lock_impacts(torques, x):
-    """Column k: torques before joint k locks, minus those after.
+    """Column k: torques before joint k locks, minus those after; friction, which the lock takes over, left out.
 
     `torques` is a function of q̇ and q̈, called N + 1 times.
     """
@@ -138,10 +138,10 @@ def lock_impacts(torques, x):
     return [ca.horzcat(*columns)]
 
 
-def lock_impacts_of_mass(friction, mass, x):
+def lock_impacts_of_mass(mass, x):
     """Expanded: M_k q̈_k, and of the torques that are quadratic in q̇ all products with q̇_k, by Christoffel's symbols."""
     n, symbols = x.q.numel(), twice_christoffel(mass, x.q)
-    impacts = mass @ ca.diag(x.qdd) + ca.diag(friction)
+    impacts = mass @ ca.diag(x.qdd)
     for k in range(n):
         for i in range(n):
             others = ca.dot(symbols[i][:, k], without(x.qd, k))
@@ -149,16 +149,14 @@ def lock_impacts_of_mass(friction, mass, x):
     return [impacts]
 
 
-def lock_impacts_expanded(velocity_torques, friction, mass, x):
+def lock_impacts_expanded(velocity_torques, mass, x):
     """The same, M_k q̈_k + (dc/dq̇_k) q̇_k - (c of q̇_k alone): c(q̇) are the torques without gravity and friction at q̈ = 0,
-    quadratic in q̇, and friction stands by itself."""
+    quadratic in q̇."""
     found = []
     for by_rate in derivatives(velocity_torques(x.qd), x.qd):
         columns = []
         for k in range(x.q.numel()):
-            column = mass[:, k] * x.qdd[k] + by_rate[:, k] * x.qd[k] - velocity_torques(alone(x.qd, k))
-            column[k] += friction[k]
-            columns.append(column)
+            columns.append(mass[:, k] * x.qdd[k] + by_rate[:, k] * x.qd[k] - velocity_torques(alone(x.qd, k)))
         found.append(ca.horzcat(*columns))
     return found
 

@@ -72,9 +72,9 @@ def from_textbook(arm, x, mass):
         *derived.coriolis_of_torques(of_velocities(x.qd), x.qd),
     ]
     impacts = [
-        *derived.lock_impacts(lambda qd, qdd: textbook.inverse_dynamics(arm, x.q, qd, qdd), x),
-        *derived.lock_impacts_expanded(of_velocities, textbook.friction(arm, x.qd), mass, x),
-        *derived.lock_impacts_of_mass(textbook.friction(arm, x.qd), mass, x),
+        *derived.lock_impacts(lambda qd, qdd: textbook.inverse_dynamics(arm, x.q, qd, qdd) - textbook.friction(arm, qd), x),
+        *derived.lock_impacts_expanded(of_velocities, mass, x),
+        *derived.lock_impacts_of_mass(mass, x),
     ]
     return common(arm, x, jacobian, mass, bias, torque_derivatives) | {
         "inverse_dynamics": torques,
@@ -143,6 +143,9 @@ def ours(arm: Arm, x: Arguments, listing):
     def torques(qd, qdd):
         return whole(methods["inverse_dynamics"], Given(x.q, qd, qdd), "inverse_dynamics")
 
+    def of_links(qd, qdd):
+        return torques(qd, qdd) - textbook.friction(arm, qd)
+
     still = ca.SX(n, 1)
     bias = torques(x.qd, still) if arm.has_friction() else built["bias_force"]
 
@@ -150,11 +153,11 @@ def ours(arm: Arm, x: Arguments, listing):
         forces = [whole(methods["bias_force"], Given(x.q, rates, still), "bias_force") for rates in (qd, still)]
         return forces[0] - forces[1]
 
-    coriolis, impacts = derived.coriolis_of_mass(mass, x.q, x.qd), derived.lock_impacts(torques, x)
+    coriolis, impacts = derived.coriolis_of_mass(mass, x.q, x.qd), derived.lock_impacts(of_links, x)
     if not arm.has_friction():  # which stands among the rest of the torques
         coriolis += derived.coriolis_of_torques(built["bias_force"], x.qd)
-        impacts += derived.lock_impacts_expanded(of_velocities, still, mass, x)
-        impacts += derived.lock_impacts_of_mass(still, mass, x)
+        impacts += derived.lock_impacts_expanded(of_velocities, mass, x)
+        impacts += derived.lock_impacts_of_mass(mass, x)
     derivatives = pairs(built["inverse_dynamics"], x.q, x.qd)
     return common(arm, x, jacobian, mass, bias, derivatives) | built | {
         "dynamic_manipulability_gradient": gradients,

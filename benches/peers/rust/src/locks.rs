@@ -1,4 +1,5 @@
-//! What `lock_impacts` replaces: loops over inverse dynamics. Column k is τ before joint k locks, minus τ after.
+//! What `lock_impacts` replaces: loops over inverse dynamics. Column k is τ before joint k locks, minus τ after, but for the friction
+//! of joint k, which the lock takes over.
 
 use ulna::Arm;
 use ulna::nalgebra::{SMatrix, SVector};
@@ -19,6 +20,7 @@ pub(crate) fn by_pairs<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Option
         for joint in 0..N {
             let before = S::arm().inverse_dynamics(x.vector(0), x.vector(N), x.vector(2 * N));
             impacts.set_column(joint, &(before - locked::<S, N>(x, joint)));
+            impacts[(joint, joint)] -= S::arm().friction_torque(x.vector(N))[joint];
         }
         // SAFETY: as above.
         unsafe { layout::write(&impacts, out) };
@@ -35,6 +37,7 @@ pub(crate) fn by_one_more<S: Subject<N>, const N: usize>(quantity: &[u8]) -> Opt
         let before = S::arm().inverse_dynamics(x.vector(0), x.vector(N), x.vector(2 * N));
         for joint in 0..N {
             impacts.set_column(joint, &(before - locked::<S, N>(x, joint)));
+            impacts[(joint, joint)] -= S::arm().friction_torque(x.vector(N))[joint];
         }
         // SAFETY: as above.
         unsafe { layout::write(&impacts, out) };
