@@ -15,8 +15,7 @@ use crate::{Verdict, console};
 #[derive(Args)]
 #[command(after_help = "Examples:\n  ulna generate arms/planar_2r.toml\n  \
                   ulna generate arms/ssrms.toml --methods mass_matrix,inverse_dynamics\n  \
-                  ulna generate arms/planar_2r.toml --methods mass_matrix,inverse_dynamics,dynamic_manipulability_gradient \
-                  --output examples/checked_in/src/planar_2r.rs --check")]
+                  ulna generate arms/planar_2r.toml --output target/planar_2r.rs")]
 pub(crate) struct Arguments {
     /// The arm's table (TOML)
     table: PathBuf,

@@ -1,11 +1,11 @@
 //! [`Field`]: the vector field over the joints that Eq. 16 and 20 multiply by coefficients.
 
-use nalgebra::{DMatrix, SVector};
+use nalgebra::SVector;
 
+use ulna::Arm;
 use ulna::control::compensation::{Projector, TaskPose};
 use ulna::control::failure::LockedJoints;
 use ulna::proof::random::SplitMix64;
-use ulna::{Arm, TaskRow};
 
 /// What stands in the place of ∇w_D in Eq. 16 and Eq. 20.
 ///
@@ -49,7 +49,7 @@ impl Field {
     ) -> SVector<f64, N> {
         match self {
             Self::DynamicManipulability => arm.jacobian_and_gradient(q).2,
-            Self::KinematicManipulability => kinematic_manipulability_gradient(arm, q).1,
+            Self::KinematicManipulability => arm.manipulability_gradient(q).1,
             Self::Ones => SVector::repeat(1.0),
             Self::Random(seed) => {
                 let mut random = SplitMix64::stream(seed, 0);
@@ -57,37 +57,4 @@ impl Field {
             }
         }
     }
-}
-
-/// `w = √det(J Jᵀ)` over the task's rows, in the units of J, and ∇w: `∂w/∂q_i = w tr(J† ∂J/∂q_i)`.
-///
-/// Both are 0 where the rows depend on each other: there ∇w does not exist.
-pub fn kinematic_manipulability_gradient<const N: usize>(
-    arm: &(impl Arm<N> + ?Sized),
-    q: &SVector<f64, N>,
-) -> (f64, SVector<f64, N>) {
-    let rows: Vec<usize> = arm.task().iter().map(TaskRow::index).collect();
-    let jacobian = arm.geometric_jacobian(q);
-    if rows.len() > N {
-        return (0.0, SVector::zeros());
-    }
-    // Jᵀ = Q R: det(J Jᵀ) = det(R)², and J† = Q R⁻ᵀ, without the square of J's condition.
-    let transposed = DMatrix::from_fn(N, rows.len(), |joint, row| jacobian[(rows[row], joint)]);
-    let decomposition = transposed.qr();
-    let r = decomposition.r();
-    let w = r.diagonal().product().abs();
-    let Some(solved) = r.solve_upper_triangular(&decomposition.q().transpose()) else {
-        return (0.0, SVector::zeros());
-    };
-    let derivatives = arm.jacobian_derivatives(q);
-    let gradient = SVector::from_fn(|i, _| {
-        let derivative = &derivatives[i];
-        // R⁻¹ Qᵀ is J†ᵀ, task rows × joints.
-        let entries = rows.iter().enumerate().flat_map(|(row, index)| {
-            let solved = &solved;
-            (0..N).map(move |joint| solved[(row, joint)] * derivative[(*index, joint)])
-        });
-        w * entries.sum::<f64>()
-    });
-    (w, gradient)
 }

@@ -28,7 +28,7 @@ pub use convex::{
     Objective, Optimum, RobustObjective, RobustOptions, RobustPlan, RobustSample, Scope,
     best_constant, frontier, least_impact, lower_every_joint, optimal, robust,
 };
-pub use field::{Field, kinematic_manipulability_gradient};
+pub use field::Field;
 pub use interval::{Interval, feasible_interval};
 pub use operation::{Assessment, OperatingPoint, Operation};
 pub use options::{EFFORT, OperationOptions};

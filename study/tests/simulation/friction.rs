@@ -40,7 +40,7 @@ fn friction_takes_work_and_the_plan_is_kept_until_the_lock() {
     };
     let mut off = 0.0_f64;
     let outcome = simulation
-        .run(0.9..1.4, &Resolution::default(), |sample| {
+        .run(1.1..1.3, &Resolution::default(), |sample| {
             if sample.elapsed < 0.0 {
                 off = off.max((sample.state.q - sample.planned.q).amax());
             }

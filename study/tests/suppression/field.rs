@@ -1,15 +1,14 @@
 //! Other vector fields in the place of ∇w_D: the same residuals at the lock, another tool force.
 
+use ulna::LockedJoints;
 use ulna::control::compensation::{Projector, TaskPose};
-use ulna::nalgebra::{DMatrix, SMatrix, SVector};
-use ulna::{Arm, LockedJoints, SerialChain, TaskRow};
+use ulna::nalgebra::SVector;
 use ulna_generated::Ssrms;
 use ulna_study::search::{
-    Field, Objective, Operation, OperationOptions, cancel_per_joint,
-    kinematic_manipulability_gradient, least_impact,
+    Field, Objective, Operation, OperationOptions, cancel_per_joint, least_impact,
 };
 
-use crate::arms::{TIMES, failure, on_every_arm, paper_force, paper_like_motion, states};
+use crate::arms::{TIMES, failure, paper_force, paper_like_motion};
 
 const FIELDS: [Field; 4] = [
     Field::DynamicManipulability,
@@ -27,40 +26,6 @@ fn operation(time: f64, field: Field) -> Operation<7> {
     };
     let (motion, wrench) = (paper_like_motion(), |_| paper_force());
     Operation::new(&Ssrms, &motion, wrench, &failure(&[1], time), &options).unwrap()
-}
-
-/// `√det(J Jᵀ)` from the matrix itself.
-fn manipulability<const N: usize>(chain: &SerialChain<N>, q: &SVector<f64, N>) -> f64 {
-    let jacobian: SMatrix<f64, 6, N> = chain.geometric_jacobian(q);
-    let rows: Vec<usize> = chain.task().iter().map(TaskRow::index).collect();
-    let rows = DMatrix::from_fn(rows.len(), N, |i, j| jacobian[(rows[i], j)]);
-    (&rows * rows.transpose()).determinant().max(0.0).sqrt()
-}
-
-#[test]
-fn the_kinematic_gradient_is_that_of_the_determinant_by_differences() {
-    fn check<const N: usize>(chain: &SerialChain<N>, name: &str) {
-        for state in states(chain, 20) {
-            let (w, gradient) = kinematic_manipulability_gradient(chain, &state.q);
-            let expected = manipulability(chain, &state.q);
-            assert!((w - expected).abs() <= 1e-9 * w.max(1.0), "{name}: {w}");
-            if w < 1e-2 {
-                continue;
-            }
-            let h = 1e-5;
-            let differences = SVector::<f64, N>::from_fn(|i, _| {
-                let at = |step: f64| {
-                    let mut q = state.q;
-                    q[i] += step;
-                    manipulability(chain, &q)
-                };
-                (at(h) - at(-h)) / (2.0 * h)
-            });
-            let error = (gradient - differences).amax();
-            assert!(error <= 1e-6 * gradient.amax().max(w), "{name}: {error:e}");
-        }
-    }
-    on_every_arm!(check);
 }
 
 #[test]
@@ -82,14 +47,6 @@ fn a_field_replaces_the_gradient_alone_and_leaves_locked_joints_out() {
     let random = |seed| Field::Random(seed).pose(&Ssrms, &q, locked, Projector::Static);
     assert_eq!(random(1).gradient, random(1).gradient);
     assert_ne!(random(1).gradient, random(2).gradient);
-}
-
-/// At a singular pose J's rows span no volume, and there is no gradient.
-#[test]
-fn where_the_rows_depend_on_each_other_there_is_no_kinematic_gradient() {
-    let chain: SerialChain<2> = crate::arms::chain("planar_2r");
-    let (w, gradient) = kinematic_manipulability_gradient(&chain, &SVector::from([0.4, 0.0]));
-    assert!(w < 1e-12 && gradient.iter().all(|entry| entry.is_finite()));
 }
 
 #[test]
