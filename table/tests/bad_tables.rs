@@ -119,6 +119,17 @@ fn keys() {
 }
 
 #[test]
+fn payloads() {
+    let messages = messages(&[
+        ("[tool]", "[payload]\nruntime = 1\n[tool]"),
+        ("[tool]", "[payload]\nruntime = \"true\"\n[tool]"),
+        ("[tool]", "[payload]\nmass = 2.0\n[tool]"),
+        ("[task]", "payload = true\n[task]"),
+    ]);
+    insta::assert_snapshot!(messages);
+}
+
+#[test]
 fn types_and_lengths() {
     let messages = messages(&[
         ("mass = 1.0", "mass = \"1.0\""),
