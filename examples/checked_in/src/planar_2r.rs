@@ -9,12 +9,12 @@
 // Not generated, but computed by the textbook formulas on CHAIN:
 //   forward_kinematics, link_poses, geometric_jacobian, link_jacobians,
 //   jacobian_derivatives, jacobian_rate, bias_acceleration, center_of_mass,
-//   mass_matrix_derivatives, inverse_mass_matrix, kinetic_energy, potential_energy,
-//   inverse_dynamics_with_wrench, bias_force, gravity_torque, friction_torque,
-//   forward_dynamics, forward_dynamics_with_wrench, inverse_dynamics_derivatives, forward_dynamics_derivatives,
-//   regressor, base_regressor, lock_impacts, dynamic_manipulability,
-//   manipulability_gradient, task_space_inertia, dynamically_consistent_inverse, mass_matrix_and_derivatives,
-//   jacobian_and_gradient.
+//   mass_matrix_derivatives, inverse_mass_matrix, coriolis_matrix, kinetic_energy,
+//   potential_energy, inverse_dynamics_with_wrench, bias_force, gravity_torque,
+//   friction_torque, forward_dynamics, forward_dynamics_with_wrench, inverse_dynamics_derivatives,
+//   forward_dynamics_derivatives, regressor, base_regressor, lock_impacts,
+//   dynamic_manipulability, manipulability_gradient, task_space_inertia, dynamically_consistent_inverse,
+//   mass_matrix_and_derivatives, jacobian_and_gradient.
 //
 // error: of the worst entry, relative to the largest, in double precision. 8 times what was measured at
 // 16 random states and 5 near singular poses, where J's rows span 1e-4 of the product of their lengths.
@@ -26,12 +26,12 @@
 /// Not generated, but computed by the textbook formulas on `CHAIN` (the same numbers but for rounding, slower):
 /// `forward_kinematics`, `link_poses`, `geometric_jacobian`, `link_jacobians`,
 /// `jacobian_derivatives`, `jacobian_rate`, `bias_acceleration`, `center_of_mass`,
-/// `mass_matrix_derivatives`, `inverse_mass_matrix`, `kinetic_energy`, `potential_energy`,
-/// `inverse_dynamics_with_wrench`, `bias_force`, `gravity_torque`, `friction_torque`,
-/// `forward_dynamics`, `forward_dynamics_with_wrench`, `inverse_dynamics_derivatives`, `forward_dynamics_derivatives`,
-/// `regressor`, `base_regressor`, `lock_impacts`, `dynamic_manipulability`,
-/// `manipulability_gradient`, `task_space_inertia`, `dynamically_consistent_inverse`, `mass_matrix_and_derivatives`,
-/// `jacobian_and_gradient`.
+/// `mass_matrix_derivatives`, `inverse_mass_matrix`, `coriolis_matrix`, `kinetic_energy`,
+/// `potential_energy`, `inverse_dynamics_with_wrench`, `bias_force`, `gravity_torque`,
+/// `friction_torque`, `forward_dynamics`, `forward_dynamics_with_wrench`, `inverse_dynamics_derivatives`,
+/// `forward_dynamics_derivatives`, `regressor`, `base_regressor`, `lock_impacts`,
+/// `dynamic_manipulability`, `manipulability_gradient`, `task_space_inertia`, `dynamically_consistent_inverse`,
+/// `mass_matrix_and_derivatives`, `jacobian_and_gradient`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Planar2r;
 #[rustfmt::skip]
