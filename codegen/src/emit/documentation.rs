@@ -9,7 +9,8 @@ use crate::formulate::legend::{meaning, place};
 use crate::label::Label;
 
 /// Above the legend.
-const NAMES: &str = " Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:";
+const NAMES: &str = " Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `x_term1` and so on are terms \
+                     of the sum x or first parts of it, `t1` and so on have no name:";
 
 /// The lines. `labels` are those of the values that have a name.
 pub(super) fn lines<'p>(
@@ -31,9 +32,12 @@ pub(super) fn lines<'p>(
     lines.push(format!(" Of {}.", arguments.collect::<Vec<_>>().join(", ")));
     lines.push(format!(" Returns: {}", method.returns()));
     lines.push(String::new());
-    lines.push(format!(
-        " Operations: {operations}, and sine and cosine of {angles} angles."
-    ));
+    let trigonometry = match angles {
+        0 => String::new(),
+        1 => ", and sine and cosine of 1 angle".to_owned(),
+        _ => format!(", and sines and cosines of {angles} angles"),
+    };
+    lines.push(format!(" Operations: {operations}{trigonometry}."));
     lines.push(format!(
         " Rounding error of the worst entry, relative to the largest: {}.",
         rounded_up(compiled.error)
@@ -59,12 +63,17 @@ fn legend<'p>(
         if let Some((names, meaning)) = meaning(family) {
             return Some(format!(" - `{names}`: {meaning}"));
         }
-        let output = outputs.iter().find(|output| output.name == family)?;
+        let part = outputs.iter().position(|output| output.name == family)?;
+        let output = &outputs[part];
+        let result = match outputs.len() {
+            1 => "result".to_owned(),
+            _ => format!("result.{part}"),
+        };
         let indices = ["_i", "_j", "_k"].iter().take(output.shape.len());
         let places = ["[i - 1]", "[j - 1]", "[k - 1]"];
         let places = places.iter().take(output.shape.len());
         Some(format!(
-            " - `{family}{}`: `result{}`",
+            " - `{family}{}`: `{result}{}`",
             indices.copied().collect::<String>(),
             places.copied().collect::<String>(),
         ))

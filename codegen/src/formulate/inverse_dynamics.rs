@@ -65,6 +65,14 @@ impl<'g> Motion<'g> {
         }
     }
 
+    /// Names the motion of link i.
+    pub(super) fn named(&self, i: usize) {
+        self.velocity
+            .labelled("omega", |axis| format!("w{axis}_{}", i + 1));
+        self.angular_acceleration.named("al", &[i]);
+        self.acceleration.named("a", &[i]);
+    }
+
     /// Λ, by rows.
     pub(super) fn lambda(&self) -> [Vec3<'g>; 3] {
         let ([x, y, z], [ax, ay, az]) = (self.velocity.0, self.angular_acceleration.0);
@@ -74,6 +82,13 @@ impl<'g> Motion<'g> {
             Vec3([xy + az, -(xx + zz), yz - ax]),
             Vec3([xz - ay, yz + ax, -(xx + yy)]),
         ]
+    }
+}
+
+/// Names Λ of link i, by rows.
+pub(super) fn name_lambda(rows: &[Vec3<'_>; 3], i: usize) {
+    for (row, axis) in rows.iter().zip(["x", "y", "z"]) {
+        row.labelled("lam", |other| format!("lam_{axis}{other}_{}", i + 1));
     }
 }
 
@@ -140,9 +155,7 @@ pub(super) fn inward<'g>(
             own.moment
                 .labelled("own_wrench", |axis| format!("n{axis}_own_{}", i + 1));
             // Every product of Λ is there by now: naming them must not be what makes them.
-            for (row, axis) in motions[i].lambda().iter().zip(["x", "y", "z"]) {
-                row.labelled("lam", |other| format!("lam_{axis}{other}_{}", i + 1));
-            }
+            name_lambda(&motions[i].lambda(), i);
             force = force + own.force;
             moment = moment + own.moment;
             // What the joint itself feels is for the caller to name.
@@ -194,11 +207,7 @@ pub(super) fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) 
                 motion = motion.map(|v| group.of_parent(v));
             }
             motion = motion.moved_by(joint.kind, qd[i], qdd[i]);
-            motion
-                .velocity
-                .labelled("omega", |axis| format!("w{axis}_{}", i + 1));
-            motion.angular_acceleration.named("al", &[i]);
-            motion.acceleration.named("a", &[i]);
+            motion.named(i);
             motions.push(motion);
         }
     }

@@ -66,18 +66,22 @@ pub(super) fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
                     *twist = twist.map(|v| group.of_parent(v));
                 }
             }
-            for (k, twist) in twists.iter().enumerate() {
-                let place = |what: &'static str| {
-                    move |axis: &str| format!("{what}{axis}_{}_at_{}", k + 1, i + 1)
-                };
-                twist.linear.labelled("twist", place("v"));
-                twist.angular.labelled("twist", place("w"));
-            }
+            name_twists(&twists, i);
             all.push(twists.clone());
             twists.push(Twist::unit(chain, joint.kind));
         }
     }
     all
+}
+
+/// Names the unit twists of the joints from the first on as joint `i` has them.
+pub(super) fn name_twists(twists: &[Twist<'_>], i: usize) {
+    for (k, twist) in twists.iter().enumerate() {
+        let place =
+            |what: &'static str| move |axis: &str| format!("{what}{axis}_{}_at_{}", k + 1, i + 1);
+        twist.linear.labelled("twist", place("v"));
+        twist.angular.labelled("twist", place("w"));
+    }
 }
 
 /// (s × s_i) · F, where s_i is the unit twist of a joint of this kind along z.

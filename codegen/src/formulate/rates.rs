@@ -32,6 +32,8 @@ pub(crate) fn jacobian_rate<'g>(
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
             let turned = spins[i].cross(chain.axis());
+            place.named("r", &[i]);
+            seen(velocity, "v", i);
             rates.push(match joint.kind {
                 JointKind::Revolute => Twist {
                     linear: spins[i].cross(across(chain, place)) + across(chain, velocity),
@@ -51,7 +53,7 @@ pub(crate) fn jacobian_rate<'g>(
         }
     }
     rates.reverse();
-    in_world(chain, &rates, switch)
+    in_world(chain, &rates, switch, "jd")
 }
 
 /// J̇ q̇ in world axes.
@@ -66,6 +68,11 @@ pub(crate) fn bias_acceleration<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Twist
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
+            place.named("r", &[i]);
+            seen(velocity, "v", i);
+            seen(spin, "w", i);
+            seen(acceleration.linear, "a", i);
+            seen(acceleration.angular, "al", i);
             let moved = moved(chain, i, place, qd[i]);
             if joint.kind == JointKind::Revolute {
                 // q̇ z × (q̇ z × r) + 2 q̇ z × u.
@@ -88,12 +95,18 @@ pub(crate) fn bias_acceleration<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Twist
     acceleration.map(|v| v.rotate(chain.base.rotation))
 }
 
+/// Names what link i sees of the tool.
+fn seen(v: Vec3<'_>, what: &'static str, i: usize) {
+    v.labelled("seen", |axis| format!("{what}{axis}_seen_{}", i + 1));
+}
+
 /// The velocity that a joint gives a point at `place`.
 fn moved<'g>(chain: &Chain<'g>, joint: usize, place: Vec3<'g>, rate: Expr<'g>) -> Vec3<'g> {
-    match chain.joints[joint].kind {
+    let velocity = match chain.joints[joint].kind {
         JointKind::Revolute => across(chain, place).scale(rate),
         JointKind::Prismatic => chain.axis().scale(rate),
-    }
+    };
+    velocity.labelled("given", |axis| format!("v{axis}_by_{}", joint + 1))
 }
 
 /// The links' angular velocities, base first, in the axes of their groups.
@@ -106,7 +119,7 @@ fn angular_velocities<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Vec3<'g>> {
             if chain.joints[i].kind == JointKind::Revolute {
                 spin = spin + chain.axis().scale(qd[i]);
             }
-            spins.push(spin);
+            spins.push(spin.labelled("omega", |axis| format!("w{axis}_{}", i + 1)));
         }
     }
     spins
