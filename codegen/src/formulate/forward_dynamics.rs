@@ -5,7 +5,7 @@ use super::factorization::{Factors, factor};
 use super::friction::with_friction;
 use super::inverse_dynamics::{Wrench, inverse_dynamics_with_load};
 use super::mass_matrix::mass_matrix;
-use super::outputs::{named, named_rows, zeros};
+use super::outputs::{named, zeros};
 use super::{Choices, Outputs, articulated};
 use crate::graph::{Expr, Input};
 use crate::schedule::Output;
@@ -22,7 +22,7 @@ pub(super) fn outputs<'g>(chain: &Chain<'g>, load: Wrench<'g>) -> Outputs<'g> {
 /// M⁻¹, full and symmetric.
 pub(super) fn inverse_mass_matrix<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
     let n = chain.joint_count();
-    let inverse = named_rows(factors(chain, choices).inverse(), "m_inv");
+    let inverse = factors(chain, choices).inverse();
     vec![Output::new("inverse", &[n, n], inverse.concat())]
 }
 

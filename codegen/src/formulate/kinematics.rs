@@ -66,7 +66,7 @@ fn vectors_to_tool<'g>(chain: &Chain<'g>) -> (Vec<Vec3<'g>>, Vec3<'g>) {
         for i in group.joints.clone().rev() {
             vectors[i] = to_tool.named("r", &[i]);
             if i == group.joints.start {
-                to_tool = group.to_parent(to_tool);
+                to_tool = group.to_parent_named(to_tool, "r", &[i]);
             }
             to_tool = to_tool + chain.joints[i].offset;
         }

@@ -57,10 +57,46 @@ const LEGEND: &[(&str, &str, &str)] = &[
         "ox_i_w, oy_i_w, oz_i_w",
         "from the origin of link i - 1 to that of link i, m, in world axes",
     ),
+    ("jdqd", "jdqd_x ... jdqd_rz", "entry of J̇ q̇"),
     (
-        "seen",
-        "vx_seen_i, wx_seen_i, ax_seen_i, alx_seen_i ...",
-        "the tool as link i sees it: velocity, angular velocity, acceleration, angular acceleration",
+        "vt",
+        "vtx_i, vty_i, vtz_i",
+        "velocity of the tool point as link i sees it, m/s",
+    ),
+    (
+        "wt",
+        "wtx_i, wty_i, wtz_i",
+        "angular velocity of the tool as link i sees it, rad/s",
+    ),
+    (
+        "at",
+        "atx_i, aty_i, atz_i",
+        "acceleration of the tool point as link i sees it, m/s²",
+    ),
+    (
+        "alt",
+        "altx_i, alty_i, altz_i",
+        "angular acceleration of the tool as link i sees it, rad/s²",
+    ),
+    (
+        "vj",
+        "vjx_i ...",
+        "velocity of the tool point as link i - 1 sees it, m/s, in the axes of link i",
+    ),
+    (
+        "wj",
+        "wjx_i ...",
+        "angular velocity of the tool as link i - 1 sees it, rad/s, in the axes of link i",
+    ),
+    (
+        "aj",
+        "ajx_i ...",
+        "acceleration of the tool point as link i - 1 sees it, m/s², in the axes of link i",
+    ),
+    (
+        "alj",
+        "aljx_i ...",
+        "angular acceleration of the tool as link i - 1 sees it, rad/s², in the axes of link i",
     ),
     (
         "given",
@@ -69,8 +105,8 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ),
     (
         "c",
-        "cx_i ..., cx_i_z ..., cx_i_zx ...",
-        "first moment of the links from i on over the mass of all, m; turned about z by the joint's angle, and then about x",
+        "cx_i, cy_i, cz_i",
+        "first moment of the links from i on over the mass of all, m",
     ),
     (
         "com",
@@ -79,8 +115,8 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ),
     (
         "mmc",
-        "mmcx_i ..., mmcx_i_z ..., mmcx_i_zx ...",
-        "minus the first moment of the links from i on, kg·m; turned about z by the joint's angle, and then about x",
+        "mmcx_i, mmcy_i, mmcz_i",
+        "minus the first moment of the links from i on, kg·m",
     ),
     // Inertia.
     (
@@ -95,8 +131,8 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ),
     (
         "turned",
-        "mcx_from_i_z ..., mcx_from_i_zx ...",
-        "those turned about z by the joint's angle, and then about x into the axes of the link before",
+        "mcx_from_i_z ..., ixx_from_i_zx ...",
+        "those turned into the axes of the link before",
     ),
     (
         "p",
@@ -180,6 +216,11 @@ const LEGEND: &[(&str, &str, &str)] = &[
         "a",
         "ax_i ..., ax_i_before ...",
         "acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before",
+    ),
+    (
+        "ww",
+        "ww_xy_i ...",
+        "product of two components of the angular velocity of link i",
     ),
     (
         "lam",
@@ -314,8 +355,8 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ("wu", "wu_r_j", "entry of WU"),
     (
         "je",
-        "je_r_j",
-        "entry of J's row r less its parts along those before",
+        "je_r_j, je_r_j_pk_s",
+        "entry of J's row r less its parts along those before; in the k-th pass, after that along row s",
     ),
     ("jee", "jee_r", "squared length of `je_r`"),
     ("jee_inv", "jee_inv_r", "1 / `jee_r`"),
@@ -328,9 +369,10 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ),
     (
         "te",
-        "te_r_j",
-        "entry of row r of Y less its parts along those before, in the product of D⁻¹",
+        "te_r_j, te_r_j_pk_s",
+        "entry of row r of Y less its parts along those before, in the product of D⁻¹; in the k-th pass, after that along row s",
     ),
+    ("te_over_d", "te_over_d_r_j", "`te_r_j` / `d_j`"),
     ("tee", "tee_r", "squared length of `te_r` in that product"),
     ("tee_inv", "tee_inv_r", "1 / `tee_r`"),
     (
@@ -356,7 +398,11 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ("w_k", "w", "the kinematic manipulability w"),
     ("dlnw_k", "dlnw_i", "∂ln w/∂q_i"),
     ("dw_k", "dw_i", "∂w/∂q_i"),
-    ("bar", "x_bar", "adjoint of x: what `dlnw_i` is of q_i"),
+    (
+        "bar",
+        "x_bar",
+        "adjoint of x: the derivative by x of ln w_D, or of ln w where that is the result",
+    ),
 ];
 
 /// What names of a family look like, and what they mean; none for one that says so itself.

@@ -245,15 +245,15 @@ pub(super) fn orthogonalise_in<'g>(
                 let inner = dot(&reduced, &basis.weighted[r]);
                 let coefficient = inner * (inner.of(1.0) / *pivot).named(inverse, &[r]);
                 subtract(&mut reduced, coefficient, &basis.reduced[r]);
+                let (row, other) = (number + 1, r + 1);
+                // Of one pass it is the share itself.
                 if passes > 1 {
-                    let (row, other) = (number + 1, r + 1);
                     coefficient.labelled(share, || format!("{share}_{row}_{other}_p{pass}"));
-                    // The last time, it is the row that remains.
-                    if pass < passes || r + 1 < number {
-                        for (j, x) in reduced.iter().enumerate() {
-                            let j = j + 1;
-                            x.labelled(family, || format!("{family}_{row}_{j}_p{pass}_{other}"));
-                        }
+                }
+                // The last time, it is the row that remains.
+                if pass < passes || r + 1 < number {
+                    for (j, x) in (1..).zip(&reduced) {
+                        x.labelled(family, || format!("{family}_{row}_{j}_p{pass}_{other}"));
                     }
                 }
                 match shares.get_mut(r) {
@@ -272,6 +272,9 @@ pub(super) fn orthogonalise_in<'g>(
             Some(weights) => reduced.iter().zip(weights).map(|(x, w)| *x * *w).collect(),
             None => reduced.clone(),
         };
+        for (j, x) in weighted.iter().enumerate() {
+            x.named("te_over_d", &[number, j]);
+        }
         let pivot = dot(&reduced, &weighted).named(squared, &[number]);
         basis.pivots.push(pivot);
         basis.weighted.push(weighted);

@@ -130,7 +130,11 @@ pub(super) fn jacobian_rate<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<
 
 pub(super) fn bias_acceleration<'g>(chain: &Chain<'g>) -> Outputs<'g> {
     let acceleration = rates::bias_acceleration(chain, &chain.inputs(Input::Qd));
-    vec![Output::new("acceleration", &[6], flat([&acceleration]))]
+    let elements = flat([&acceleration]);
+    for (x, row) in elements.iter().zip(TaskRow::ALL) {
+        x.labelled("jdqd", || format!("jdqd_{}", row.name()));
+    }
+    vec![Output::new("acceleration", &[6], elements)]
 }
 
 pub(super) fn center_of_mass<'g>(chain: &Chain<'g>) -> Outputs<'g> {

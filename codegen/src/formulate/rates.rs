@@ -33,7 +33,7 @@ pub(crate) fn jacobian_rate<'g>(
             let joint = &chain.joints[i];
             let turned = spins[i].cross(chain.axis());
             place.named("r", &[i]);
-            seen(velocity, "v", i);
+            velocity.named("vt", &[i]);
             rates.push(match joint.kind {
                 JointKind::Revolute => Twist {
                     linear: spins[i].cross(across(chain, place)) + across(chain, velocity),
@@ -46,8 +46,9 @@ pub(crate) fn jacobian_rate<'g>(
             });
             velocity = velocity + moved(chain, i, place, qd[i]);
             if i == group.joints.start {
-                place = group.to_parent(place);
-                velocity = group.to_parent(velocity);
+                place = group.to_parent_named(place, "r", &[i]);
+                velocity = velocity.named("vj", &[i]);
+                velocity = group.to_parent_named(velocity, "vj", &[i]);
             }
             place = place + joint.offset;
         }
@@ -69,10 +70,10 @@ pub(crate) fn bias_acceleration<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Twist
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
             place.named("r", &[i]);
-            seen(velocity, "v", i);
-            seen(spin, "w", i);
-            seen(acceleration.linear, "a", i);
-            seen(acceleration.angular, "al", i);
+            velocity.named("vt", &[i]);
+            spin.named("wt", &[i]);
+            acceleration.linear.named("at", &[i]);
+            acceleration.angular.named("alt", &[i]);
             let moved = moved(chain, i, place, qd[i]);
             if joint.kind == JointKind::Revolute {
                 // q̇ z × (q̇ z × r) + 2 q̇ z × u.
@@ -84,20 +85,19 @@ pub(crate) fn bias_acceleration<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Twist
             }
             velocity = velocity + moved;
             if i == group.joints.start {
-                place = group.to_parent(place);
-                velocity = group.to_parent(velocity);
-                spin = group.to_parent(spin);
-                acceleration = acceleration.map(|v| group.to_parent(v));
+                let to_parent = |v: Vec3<'g>, family| {
+                    group.to_parent_named(v.named(family, &[i]), family, &[i])
+                };
+                place = group.to_parent_named(place, "r", &[i]);
+                velocity = to_parent(velocity, "vj");
+                spin = to_parent(spin, "wj");
+                acceleration.linear = to_parent(acceleration.linear, "aj");
+                acceleration.angular = to_parent(acceleration.angular, "alj");
             }
             place = place + joint.offset;
         }
     }
     acceleration.map(|v| v.rotate(chain.base.rotation))
-}
-
-/// Names what link i sees of the tool.
-fn seen(v: Vec3<'_>, what: &'static str, i: usize) {
-    v.labelled("seen", |axis| format!("{what}{axis}_seen_{}", i + 1));
 }
 
 /// The velocity that a joint gives a point at `place`.

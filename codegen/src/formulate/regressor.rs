@@ -12,7 +12,7 @@
 use ulna::{JointKind, Parameter};
 
 use super::chain::Chain;
-use super::inverse_dynamics::{Motion, name_lambda, times};
+use super::inverse_dynamics::{Motion, times};
 use super::kinematics::Twist;
 use super::mass_matrix_derivatives::name_twists;
 use super::vector::{Turn, Vec3};
@@ -71,7 +71,7 @@ pub(crate) fn regressor_columns<'g>(chain: &Chain<'g>, asked: Columns) -> Vec<Ve
         name_twists(&twists, i);
         twists.push(Twist::unit(chain, chain.rows[i].kind));
         let wrenches = Wrenches::of(&motion);
-        name_lambda(&wrenches.lambda, i);
+        motion.name_lambda(i);
         let mut rows: Vec<Row<'g>> = twists.iter().map(|twist| wrenches.power(twist)).collect();
         for (row, before) in rows.iter_mut().zip(&before) {
             step.inherit(row, before);
