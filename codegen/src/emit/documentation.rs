@@ -7,11 +7,15 @@ use crate::MethodProgram;
 use crate::accuracy::rounded_up;
 use crate::cost::Counts;
 use crate::formulate::legend::{meaning, place};
+use crate::graph::Input;
 use crate::label::Label;
-use crate::schedule::Program;
+use crate::schedule::{Operand, Program};
 
 /// Above the legend.
 const NAMES: &str = " Names, everything counted from 1:";
+
+/// What an arm carries.
+const PAYLOAD: &str = " - `payload`: of what the arm carries, about the origin of the last link's frame, m, mx, my, mz, Ixx, Ixy, Ixz, Iyy, Iyz, Izz";
 
 /// The lines. `names` are those of its values, `labels` those of the values that the formulas gave a name.
 pub(super) fn lines<'p>(
@@ -51,7 +55,8 @@ pub(super) fn lines<'p>(
         " Rounding error of the worst entry, relative to the largest: {}.",
         rounded_up(compiled.error)
     ));
-    let legend = angles_line(&compiled.program).into_iter();
+    let payload = has_payload(&compiled.program).then(|| PAYLOAD.to_owned());
+    let legend = payload.into_iter().chain(angles_line(&compiled.program));
     let legend = legend.chain(families(compiled, labels));
     let mut legend = legend.chain(endings(names)).peekable();
     if legend.peek().is_some() {
@@ -59,6 +64,12 @@ pub(super) fn lines<'p>(
         lines.extend(legend);
     }
     lines
+}
+
+fn has_payload(program: &Program) -> bool {
+    let is_payload = |operand| matches!(operand, Operand::Input(Input::Payload(_)));
+    let mut steps = program.steps.iter();
+    steps.any(|step| is_payload(step.a) || is_payload(step.b))
 }
 
 /// What sines and cosines are called.
@@ -83,7 +94,7 @@ fn angles_line(program: &Program) -> Option<String> {
 /// What is behind a name, or before one, or instead of one.
 fn endings(names: impl Iterator<Item = String>) -> impl Iterator<Item = String> {
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit());
-    let mut found = [false; 4];
+    let mut found = [false; 5];
     for name in names {
         let positive = name.strip_suffix("_neg").unwrap_or(&name);
         let turned = positive
@@ -94,12 +105,16 @@ fn endings(names: impl Iterator<Item = String>) -> impl Iterator<Item = String> 
         found[0] |= turned;
         found[1] |= positive.len() < name.len();
         found[2] |= term.is_some_and(|(_, rest)| is_number(rest));
-        found[3] |= name.strip_prefix('t').is_some_and(is_number);
+        found[3] |= ["_before", "_before_x"]
+            .iter()
+            .any(|ending| positive.ends_with(ending));
+        found[4] |= name.strip_prefix('t').is_some_and(is_number);
     }
     let lines = [
         " - `x_z, x_zx`: x turned about z by the joint's angle, and then about x into the axes of the link before",
         " - `x_neg`: what stands behind the minus of x",
         " - `x_term1 ...`: a term of the sum x, or its first terms together",
+        " - `x_before, x_before_x`: x as the link before has it, in that link's axes; turned about x, and not yet about z",
         " - `t1 ...`: parts of formulas, without a name",
     ];
     let lines = lines.into_iter().zip(found);

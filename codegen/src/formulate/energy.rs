@@ -22,7 +22,9 @@ pub(crate) fn kinetic_energy<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Expr<'g>
             let before = |axis: &str| format!("v{axis}_{}_before", i + 1);
             motion.linear.labelled("velocity", before);
             if i == group.joints.start {
-                motion = motion.map(|v| group.of_parent(v));
+                let name = |what| move |axis: &str| format!("{what}{axis}_{}", i + 1);
+                motion.linear = group.of_parent_named(motion.linear, "velocity", name("v"));
+                motion.angular = group.of_parent_named(motion.angular, "omega", name("w"));
             }
             let along = chain.axis().scale(qd[i]);
             match joint.kind {

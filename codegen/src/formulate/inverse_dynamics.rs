@@ -81,8 +81,8 @@ impl<'g> Motion<'g> {
             acceleration,
         } = self.map(|v| v.turn_x(group.alpha.inverse()));
         acceleration.labelled("a", |axis| format!("a{axis}_{}_before_x", i + 1));
-        velocity.labelled("omega", |axis| format!("w{axis}_{i}_x"));
-        angular_acceleration.labelled("al", |axis| format!("al{axis}_{i}_x"));
+        velocity.labelled("omega", |axis| format!("w{axis}_{}_before_x", i + 1));
+        angular_acceleration.labelled("al", |axis| format!("al{axis}_{}_before_x", i + 1));
     }
 
     /// Names Λ of link i and the products in it, which must be there by now: naming them must not be what makes them.

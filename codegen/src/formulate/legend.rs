@@ -147,7 +147,11 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ("m", "m_i_j", "entry of the mass matrix M"),
     ("m_inv", "m_inv_i_j", "entry of M⁻¹"),
     ("d", "d_i", "pivot: entry of D in M = U D Uᵀ"),
-    ("d_inv", "d_inv_i", "1 / `d_i`"),
+    (
+        "d_inv",
+        "d_inv_i",
+        "1 / d_i, d_i the pivots: entries of D in M = U D Uᵀ",
+    ),
     ("u", "u_i_j", "entry of U in M = U D Uᵀ"),
     ("ud", "ud_i_j", "entry of U D"),
     (
@@ -214,8 +218,8 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ),
     (
         "a",
-        "ax_i ..., ax_i_before ...",
-        "acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before",
+        "ax_i, ay_i, az_i",
+        "acceleration of joint i's origin less gravity, m/s²",
     ),
     (
         "ww",
@@ -260,8 +264,8 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ("qdd", "qdd_i", "acceleration of joint i, rad/s²"),
     (
         "velocity",
-        "vx_i ..., vx_i_before ...",
-        "velocity of joint i's origin, m/s; the same in the axes of the link before",
+        "vx_i, vy_i, vz_i",
+        "velocity of joint i's origin, m/s",
     ),
     (
         "lh",

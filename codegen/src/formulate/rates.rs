@@ -114,7 +114,8 @@ fn angular_velocities<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Vec3<'g>> {
     let mut spin = chain.zero();
     let mut spins = Vec::new();
     for group in &chain.groups {
-        spin = group.of_parent(spin);
+        let i = group.joints.start;
+        spin = group.of_parent_named(spin, "omega", |axis| format!("w{axis}_{}", i + 1));
         for i in group.joints.clone() {
             if chain.joints[i].kind == JointKind::Revolute {
                 spin = spin + chain.axis().scale(qd[i]);
