@@ -136,7 +136,7 @@ impl ::ulna::Unrolled<2> for Planar2r {
     /// - `s12, c12`: sine and cosine of q_1 + q_2
     /// - `wx_i, wy_i, wz_i`: angular velocity of link i, rad/s
     /// - `alx_i, aly_i, alz_i`: angular acceleration of link i, rad/s²
-    /// - `ax_i ..., ax_i_before ...`: acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before
+    /// - `ax_i, ay_i, az_i`: acceleration of joint i's origin less gravity, m/s²
     /// - `fx_own_i ..., nx_own_i ...`: force and moment that link i's own motion takes, N and N·m
     /// - `nx_i, ny_i, nz_i`: moment on link i from the link before, about joint i's origin, N·m
     /// - `x_term1 ...`: a term of the sum x, or its first terms together
@@ -175,7 +175,7 @@ impl ::ulna::Unrolled<2> for Planar2r {
     /// - `s12, c12`: sine and cosine of q_1 + q_2
     /// - `rx_i, ry_i, rz_i`: from joint i's origin to the tool point, m
     /// - `m_i_j`: entry of the mass matrix M
-    /// - `d_inv_i`: 1 / `d_i`
+    /// - `d_inv_i`: 1 / d_i, d_i the pivots: entries of D in M = U D Uᵀ
     /// - `u_i_j`: entry of U in M = U D Uᵀ
     /// - `h_r_j`: entry of H = JM⁻¹, r counting the task's rows in the order in which they are made orthogonal
     /// - `e_r_j, e_r_j_pk_s`: entry of H's row r less its parts along those before; in the k-th pass, after that along row s
