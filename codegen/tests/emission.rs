@@ -107,7 +107,7 @@ fn the_ssrms_needs_few_operations() {
 fn a_choice_of_methods_leaves_out_the_others() {
     let chosen = [Method::InverseDynamics, Method::MassMatrix];
     let generator = Generator::new().methods(&chosen);
-    for (arm, most) in [("planar_2r", 170), ("ssrms", 620), ("oblique_6", 1_300)] {
+    for (arm, most) in [("planar_2r", 120), ("ssrms", 570), ("oblique_6", 1_210)] {
         let model = load(arm);
         let source = generator.generate(&model, "table").source();
         let whole = of(arm).source();
@@ -136,12 +136,14 @@ fn a_choice_of_methods_leaves_out_the_others() {
             .map(|(method, _)| *method)
             .collect();
         assert_eq!(counted, [Method::MassMatrix, Method::InverseDynamics]);
-        let lines = source.lines().count();
-        assert!(lines < most, "{arm}: {lines} lines");
+        // Comments list what is left out, and are the longer the more methods there are.
+        let is_code = |line: &&str| !line.trim_start().starts_with("//");
+        let lines = source.lines().filter(is_code).count();
+        assert!(lines < most, "{arm}: {lines} lines of code");
     }
 }
 
-/// Two thirds, at least, of what is named in a kernel says what it is.
+/// Three quarters, at least, of what is named in kernels says what it is, or of which sum it is a part.
 #[test]
 fn most_values_have_a_name() {
     for arm in ["planar_2r", "ssrms", "oblique_6"] {
@@ -158,7 +160,7 @@ fn most_values_have_a_name() {
         };
         let (unnamed, named): (Vec<&str>, Vec<&str>) = assigned.partition(|name| is_number(name));
         assert!(
-            2 * unnamed.len() <= named.len(),
+            3 * unnamed.len() <= named.len(),
             "{arm}: {} and {}",
             unnamed.len(),
             named.len()

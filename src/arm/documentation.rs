@@ -25,9 +25,9 @@ impl Argument {
     /// What it is, with its units.
     pub const fn meaning(self) -> &'static str {
         match self {
-            Self::Q => "joint coordinates, rad (m)",
-            Self::Qd => "their rates, rad/s (m/s)",
-            Self::Qdd => "their accelerations, rad/s² (m/s²)",
+            Self::Q => "joint coordinates, rad (prismatic: m)",
+            Self::Qd => "joint rates, rad/s (m/s)",
+            Self::Qdd => "joint accelerations, rad/s² (m/s²)",
             Self::Tau => "joint torques, N·m (N)",
             Self::Wrench => "wrench on the tool, `[f; n]`, N and N·m",
         }

@@ -86,7 +86,7 @@ macro_rules! methods {
 
             /// Centre of mass of all links, m, in world axes from the world's origin.
             CenterOfMass = center_of_mass(q) -> $crate::nalgebra::Vector3<f64>
-            { kernel "Centre of mass of all links, m, world axes."
+            { kernel "Centre of mass of all links, m, in world axes from the world's origin."
               center_of_mass_kernel -> [R; 3] }
             { batch center_of_mass_batch from 2 }
             { error centroid }
@@ -193,7 +193,7 @@ macro_rules! methods {
             /// ∂τ/∂q and ∂τ/∂q̇ of the inverse dynamics, N×N each, N·m/rad and N·m·s/rad: entry (i, j) is ∂τ_i/∂q_j. ∂τ/∂q̈ is M.
             InverseDynamicsDerivatives = inverse_dynamics_derivatives(q, qd, qdd)
                 -> ($crate::nalgebra::SMatrix<f64, $n, $n>, $crate::nalgebra::SMatrix<f64, $n, $n>)
-            { kernel "∂τ/∂q and ∂τ/∂q̇, N×N, for the accelerations `qdd`."
+            { kernel "∂τ/∂q and ∂τ/∂q̇, N×N, N·m/rad and N·m·s/rad, for the accelerations `qdd`: column j of each is the derivative by joint j."
               inverse_dynamics_derivatives_kernel -> ([[R; $n]; $n], [[R; $n]; $n]) }
             { batch inverse_dynamics_derivatives_batch from 2 }
             { error torque_derivatives }
@@ -202,7 +202,7 @@ macro_rules! methods {
             /// the others are −M⁻¹ ∂τ/∂q and −M⁻¹ ∂τ/∂q̇ at q̈ = FD(q, q̇, τ) (Carpentier and Mansard, RSS 2018).
             ForwardDynamicsDerivatives = forward_dynamics_derivatives(q, qd, tau)
                 -> ($crate::nalgebra::SMatrix<f64, $n, $n>, $crate::nalgebra::SMatrix<f64, $n, $n>, $crate::nalgebra::SMatrix<f64, $n, $n>)
-            { kernel "∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ, N×N, under the torques `tau`."
+            { kernel "∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ, N×N, 1/s², 1/s and 1/(kg·m²), under the torques `tau`: column j of each is the derivative by joint j."
               forward_dynamics_derivatives_kernel -> ([[R; $n]; $n], [[R; $n]; $n], [[R; $n]; $n]) }
             { batch forward_dynamics_derivatives_batch from 2 }
             { error acceleration_derivatives }
@@ -271,7 +271,7 @@ macro_rules! methods {
             ///
             /// Rows and columns outside the task are 0. Where the task is [singular](crate::arm::singular), all of it is.
             TaskSpaceInertia = task_space_inertia(q) -> $crate::nalgebra::Matrix6<f64>
-            { kernel "Λ, 6×6, 0 outside the task's rows and columns, and det(JJᵀ) over them."
+            { kernel "Λ, 6×6, kg to kg·m², 0 outside the task's rows and columns, and det(JJᵀ) over the task's rows."
               task_space_inertia_kernel -> ([[R; 6]; 6], R), zero from 0 }
             { batch task_space_inertia_batch from 2 }
             { error task_inertia }
@@ -289,7 +289,7 @@ macro_rules! methods {
             /// M and all ∂M/∂q_i in one call.
             MassMatrixAndDerivatives = mass_matrix_and_derivatives(q)
                 -> ($crate::nalgebra::SMatrix<f64, $n, $n>, [$crate::nalgebra::SMatrix<f64, $n, $n>; $n])
-            { kernel "Mass matrix, and its derivatives by each joint."
+            { kernel "Mass matrix, N×N, kg·m², and ∂M/∂q_i, N×N for each i, kg·m²/rad."
               mass_matrix_and_derivatives_kernel -> ([[R; $n]; $n], [[[R; $n]; $n]; $n]) }
             { batch mass_matrix_and_derivatives_batch from 4 }
             { error masses_and_derivatives }

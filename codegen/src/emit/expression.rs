@@ -3,14 +3,14 @@
 //! A value that is used once stands where it is used, if that stays readable; the others are named.
 //! A product that only a sum needs becomes a multiply-add: [`ulna::Real`] fuses it where the target can.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use ulna::Argument;
 
 use super::literal::literal;
-use crate::graph::{AngleSum, Input};
+use super::names::{Names, angle_names};
+use crate::graph::Input;
 use crate::label::Label;
 use crate::op::Op;
 use crate::schedule::{Operand, Output, Program, Step};
@@ -67,10 +67,10 @@ impl<'p> Writer<'p> {
     /// A name is the value's own, if the formulas gave it one, or else a number.
     pub(super) fn new(program: &'p Program) -> Self {
         let angle_names = angle_names(&program.angles);
-        let mut given = Names::new(&angle_names);
+        let mut given = Names::new(program, &angle_names);
         let inline = inlined(program);
         let names: Vec<Option<Ident>> = (0..program.steps.len())
-            .map(|step| (!inline[step]).then(|| given.name(program, step)))
+            .map(|step| (!inline[step]).then(|| given.name(step)))
             .collect();
         let mut results = HashMap::new();
         for element in program.outputs.iter().flat_map(|output| &output.elements) {
@@ -78,7 +78,7 @@ impl<'p> Writer<'p> {
                 && inline[step]
                 && !is_plain(program, &names, step)
             {
-                results.insert(step, given.name(program, step));
+                results.insert(step, given.name(step));
             }
         }
         Self {
@@ -305,41 +305,6 @@ impl<'p> Writer<'p> {
     }
 }
 
-/// Names as they are given, each once.
-struct Names {
-    taken: HashSet<String>,
-    /// How many values without a label there are.
-    numbered: usize,
-}
-
-impl Names {
-    /// None yet, but those of arguments, sines and cosines, and of what generated code has besides.
-    fn new(angle_names: &[String]) -> Self {
-        let arguments = Argument::ALL.map(|argument| argument.name().to_owned());
-        let angles = angle_names
-            .iter()
-            .flat_map(|name| [format!("s{name}"), format!("c{name}")]);
-        let taken = arguments.into_iter().chain(angles);
-        Self {
-            taken: taken.chain(["state".to_owned()]).collect(),
-            numbered: 0,
-        }
-    }
-
-    /// A name for a step: the label, with a letter more if that is taken, or else a number.
-    fn name(&mut self, program: &Program, step: usize) -> Ident {
-        let Some(label) = &program.labels[step] else {
-            self.numbered += 1;
-            return format_ident!("t{}", self.numbered);
-        };
-        let mut name = label.text.clone();
-        while !self.taken.insert(name.clone()) {
-            name.push('b');
-        }
-        format_ident!("{name}")
-    }
-}
-
 /// Whether a step is no more than the negative of something that has a name, and so needs none.
 fn is_plain(program: &Program, names: &[Option<Ident>], step: usize) -> bool {
     let Step { op, a, .. } = program.steps[step];
@@ -383,23 +348,4 @@ fn inlined(program: &Program) -> Vec<bool> {
         inline.push(uses[index] == 1 && (own <= INLINE || fusible));
     }
     inline
-}
-
-/// A short name for each angle: the joints' numbers, from 1.
-fn angle_names(angles: &[AngleSum]) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for angle in angles {
-        let numbers: Vec<String> = angle.joints.iter().map(|i| (i + 1).to_string()).collect();
-        let separator = if angle.joints.iter().all(|i| *i < 9) {
-            ""
-        } else {
-            "_"
-        };
-        let mut name = numbers.join(separator);
-        while names.contains(&name) {
-            name.push('b');
-        }
-        names.push(name);
-    }
-    names
 }

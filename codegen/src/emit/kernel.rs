@@ -47,7 +47,8 @@ pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
     let angles = angles(&writer, &program.angles);
     let mut named = writer.named();
     let in_parts = parts::is_long(named.len());
-    let doc = documentation::lines(compiled, writer.labels(!in_parts));
+    let names = named.iter().map(|(name, _)| name.to_string());
+    let doc = documentation::lines(compiled, names, writer.labels(!in_parts));
     let (body, value) = if in_parts {
         (parts::parts(&writer, compiled, &named, joints), quote!())
     } else {

@@ -122,11 +122,24 @@ fn filled(lines: &[String]) -> String {
     text
 }
 
-/// Whether a line is an item of a list and nothing else: without a space, an operator or an open bracket.
+/// Whether a line is an item of a list and nothing else: a pair of numbers, a text, or without a space, an operator or an open bracket.
 fn is_short(item: &str) -> bool {
     let Some(item) = item.strip_suffix(',') else {
         return false;
     };
+    let pair = item
+        .strip_prefix('(')
+        .and_then(|item| item.strip_suffix(')'));
+    let pair = pair.and_then(|item| item.split_once(", "));
+    let is_number = |text: &str| text.chars().all(|c| c.is_ascii_digit());
+    let text = item
+        .strip_prefix('"')
+        .and_then(|item| item.strip_suffix('"'));
+    if pair.is_some_and(|(a, b)| is_number(a) && is_number(b))
+        || text.is_some_and(|text| !text.contains(['"', '\\']))
+    {
+        return true;
+    }
     let plain = |c: char| c.is_ascii_alphanumeric() || "_.[]():-".contains(c);
     let count = |bracket: char| item.matches(bracket).count();
     !item.is_empty()

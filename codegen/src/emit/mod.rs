@@ -7,6 +7,7 @@ mod expression;
 mod kernel;
 mod layout;
 mod literal;
+mod names;
 mod parts;
 mod payload;
 

@@ -7,8 +7,8 @@ use super::chain::Chain;
 use super::vector::Vec3;
 use crate::graph::Expr;
 
-/// `factor` Σ m_i p_i over the centroids p_i, from the base's origin, in base axes.
-fn first_moment<'g>(chain: &Chain<'g>, factor: Expr<'g>) -> Vec3<'g> {
+/// `factor` Σ m_i p_i over the centroids p_i, from the base's origin, in base axes; its parts beyond the joints are called `family`.
+fn first_moment<'g>(chain: &Chain<'g>, factor: Expr<'g>, family: &'static str) -> Vec3<'g> {
     let mut mass = chain.graph.constant(0.0);
     let mut moment = chain.zero();
     for group in chain.groups.iter().rev() {
@@ -17,8 +17,9 @@ fn first_moment<'g>(chain: &Chain<'g>, factor: Expr<'g>) -> Vec3<'g> {
             mass = mass + joint.body.mass * factor;
             let own = joint.body.moment.scale(factor);
             moment = moment + own.turn_z(joint.group_from_own);
+            moment.named(family, &[i]);
             if i == group.joints.start {
-                moment = group.to_parent(moment);
+                moment = group.to_parent_named(moment, family, &[i]);
             }
             moment = moment + joint.offset.scale(mass);
         }
@@ -34,14 +35,14 @@ fn total_mass<'g>(chain: &Chain<'g>) -> Expr<'g> {
 /// The centre of mass, in world axes from the world's origin.
 pub(crate) fn center_of_mass<'g>(chain: &Chain<'g>) -> Vec3<'g> {
     let inverse = chain.graph.constant(1.0) / total_mass(chain);
-    let from_base = first_moment(chain, inverse);
+    let from_base = first_moment(chain, inverse, "c");
     Vec3::constant(chain.graph, chain.base.translation) + from_base.rotate(chain.base.rotation)
 }
 
 /// −Σ m_i gᵀ p_i, p_i from the world's origin.
 pub(crate) fn potential_energy<'g>(chain: &Chain<'g>) -> Expr<'g> {
     let minus = chain.graph.constant(-1.0);
-    let from_base = chain.gravity.dot(first_moment(chain, minus));
+    let from_base = chain.gravity.dot(first_moment(chain, minus, "mmc"));
     let base = Vec3::constant(chain.graph, chain.base.translation);
     let transposed = std::array::from_fn(|j| std::array::from_fn(|i| chain.base.rotation[i][j]));
     let height = chain.gravity.dot(base.rotate(transposed));

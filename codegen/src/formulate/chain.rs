@@ -71,6 +71,18 @@ impl<'g> Group<'g> {
         v.turn_x(self.alpha).labelled(family, text("_zx"))
     }
 
+    /// As [`of_parent`](Self::of_parent); what is turned about x only is called what `text` makes of x, y or z, with `_before_x` behind it.
+    pub fn of_parent_named(
+        &self,
+        v: Vec3<'g>,
+        family: &'static str,
+        text: impl Fn(&str) -> String,
+    ) -> Vec3<'g> {
+        let v = v.turn_x(self.alpha.inverse());
+        let v = v.labelled(family, |axis| format!("{}_before_x", text(axis)));
+        v.turn_z(self.turn.inverse())
+    }
+
     /// A vector of the axes of the group before, in this group's.
     pub fn of_parent(&self, v: Vec3<'g>) -> Vec3<'g> {
         v.turn_x(self.alpha.inverse()).turn_z(self.turn.inverse())

@@ -13,6 +13,7 @@
 
 use super::chain::Chain;
 use super::mass_matrix_derivatives::mass_matrix_derivatives;
+use super::outputs::{named, named_rows};
 use crate::graph::Expr;
 
 /// C by rows, at rates `qd`.
@@ -20,6 +21,7 @@ pub(crate) fn coriolis_matrix<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Vec
     let n = chain.joint_count();
     let dm = mass_matrix_derivatives(chain);
     let half: Vec<Expr<'g>> = qd.iter().map(|rate| rate.of(0.5) * *rate).collect();
+    let half = named(half, "hqd");
     let zeros = vec![vec![chain.graph.constant(0.0); n]; n];
     let (mut symmetric, mut skew) = (zeros.clone(), zeros.clone());
     let add = |part: &mut Vec<Vec<Expr<'g>>>, row: usize, column: usize, term: Expr<'g>| {
@@ -36,10 +38,12 @@ pub(crate) fn coriolis_matrix<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Vec
                 add(&mut skew, a, b, y * half[c]);
                 add(&mut symmetric, a, c, y * half[b]);
                 add(&mut skew, a, c, x * half[b]);
-                add(&mut skew, b, c, (x - y) * half[a]);
+                add(&mut skew, b, c, (x - y).named("chr2", &[b, a, c]) * half[a]);
             }
         }
     }
+    let symmetric = named_rows(symmetric, "sym");
+    let skew = named_rows(skew, "skew");
     let mut matrix = zeros;
     for i in 0..n {
         matrix[i][i] = symmetric[i][i];

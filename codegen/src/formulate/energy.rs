@@ -19,23 +19,35 @@ pub(crate) fn kinetic_energy<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Expr<'g>
         for i in group.joints.clone() {
             let joint = &chain.joints[i];
             motion.linear = motion.linear + motion.angular.cross(joint.offset);
+            let before = |axis: &str| format!("v{axis}_{}_before", i + 1);
+            motion.linear.labelled("velocity", before);
             if i == group.joints.start {
-                motion = motion.map(|v| group.of_parent(v));
+                let name = |what| move |axis: &str| format!("{what}{axis}_{}", i + 1);
+                motion.linear = group.of_parent_named(motion.linear, "velocity", name("v"));
+                motion.angular = group.of_parent_named(motion.angular, "omega", name("w"));
             }
             let along = chain.axis().scale(qd[i]);
             match joint.kind {
                 JointKind::Revolute => motion.angular = motion.angular + along,
                 JointKind::Prismatic => motion.linear = motion.linear + along,
             }
-            energy = energy + energy_of(&joint.body.turn_z(joint.group_from_own), &motion);
+            motion
+                .linear
+                .labelled("velocity", |axis| format!("v{axis}_{}", i + 1));
+            motion
+                .angular
+                .labelled("omega", |axis| format!("w{axis}_{}", i + 1));
+            let body = joint.body.turn_z(joint.group_from_own);
+            body.labelled("own", &format!("_{}", i + 1));
+            energy = (energy + energy_of(&body, &motion, i)).named("e_to", &[i]);
             energy = energy + half(joint.reflected) * (qd[i] * qd[i]);
         }
     }
     energy
 }
 
-/// ½ m v² + ω · (½ I ω + h × v), each product of two components of ω once.
-fn energy_of<'g>(body: &Body<'g>, motion: &Twist<'g>) -> Expr<'g> {
+/// ½ m v² + ω · (½ I ω + h × v) of link i, each product of two components of ω once.
+fn energy_of<'g>(body: &Body<'g>, motion: &Twist<'g>, i: usize) -> Expr<'g> {
     let [x, y, z] = motion.angular.0;
     let [xx, yy, zz, xy, xz, yz] = body.inertia.0;
     let turned = Vec3([
@@ -44,6 +56,7 @@ fn energy_of<'g>(body: &Body<'g>, motion: &Twist<'g>) -> Expr<'g> {
         half(zz) * z,
     ]);
     let angular = turned + body.moment.cross(motion.linear);
+    angular.named("lh", &[i]);
     half(body.mass) * motion.linear.dot(motion.linear) + motion.angular.dot(angular)
 }
 

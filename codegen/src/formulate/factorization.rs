@@ -86,7 +86,11 @@ impl<'g> Factors<'g> {
             let pairs = short.iter().zip(long);
             pairs.fold(zero, |sum, (x, y)| sum + *x * *y)
         };
-        let row = |i: usize| (0..n).map(|j| entry(i, j)).collect();
+        let row = |i: usize| {
+            (0..n)
+                .map(|j| entry(i, j).named("m_inv", &[i, j]))
+                .collect()
+        };
         (0..n).map(row).collect()
     }
 

@@ -9,7 +9,8 @@ use crate::graph::Expr;
 pub(crate) fn friction<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let joints = chain.joints.iter().zip(qd);
     joints
-        .map(|(joint, rate)| {
+        .enumerate()
+        .map(|(i, (joint, rate))| {
             let Friction {
                 viscous,
                 coulomb,
@@ -18,7 +19,9 @@ pub(crate) fn friction<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Expr<'g>> 
             let constant = |value: f64| chain.graph.constant(value);
             let smoothing = constant(smoothing);
             let speed = (*rate * *rate + smoothing * smoothing).sqrt();
-            *rate * (constant(viscous) + constant(coulomb) / speed)
+            speed.named("speed", &[i]);
+            let friction = *rate * (constant(viscous) + constant(coulomb) / speed);
+            friction.named("friction", &[i])
         })
         .collect()
 }
@@ -27,7 +30,8 @@ pub(crate) fn friction<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Expr<'g>> 
 pub(crate) fn friction_slope<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let joints = chain.joints.iter().zip(qd);
     joints
-        .map(|(joint, rate)| {
+        .enumerate()
+        .map(|(i, (joint, rate))| {
             let Friction {
                 viscous,
                 coulomb,
@@ -35,9 +39,10 @@ pub(crate) fn friction_slope<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Expr
             } = joint.friction;
             let constant = |value: f64| chain.graph.constant(value);
             let squared = constant(smoothing) * constant(smoothing);
-            let speed_squared = *rate * *rate + squared;
-            let cubed = speed_squared * speed_squared.sqrt();
-            constant(viscous) + constant(coulomb) * squared / cubed
+            let speed_squared = (*rate * *rate + squared).named("speed2", &[i]);
+            let speed = speed_squared.sqrt().named("speed", &[i]);
+            let slope = constant(viscous) + constant(coulomb) * squared / (speed_squared * speed);
+            slope.named("slope", &[i])
         })
         .collect()
 }

@@ -7,7 +7,7 @@
 use ulna::JointKind;
 
 use super::body::Body;
-use super::chain::Chain;
+use super::chain::{Chain, Group};
 use super::kinematics::express;
 use super::vector::Vec3;
 use crate::graph::{Expr, Input};
@@ -62,6 +62,40 @@ impl<'g> Motion<'g> {
             velocity: f(self.velocity),
             angular_acceleration: f(self.angular_acceleration),
             acceleration: f(self.acceleration),
+        }
+    }
+
+    /// Names the motion of link i.
+    pub(super) fn named(&self, i: usize) {
+        self.velocity
+            .labelled("omega", |axis| format!("w{axis}_{}", i + 1));
+        self.angular_acceleration.named("al", &[i]);
+        self.acceleration.named("a", &[i]);
+    }
+
+    /// Names what of this motion of the link before `i` has been turned halfway into the axes of `i`.
+    fn name_turned(&self, group: &Group<'g>, i: usize) {
+        let Self {
+            velocity,
+            angular_acceleration,
+            acceleration,
+        } = self.map(|v| v.turn_x(group.alpha.inverse()));
+        acceleration.labelled("a", |axis| format!("a{axis}_{}_before_x", i + 1));
+        velocity.labelled("omega", |axis| format!("w{axis}_{}_before_x", i + 1));
+        angular_acceleration.labelled("al", |axis| format!("al{axis}_{}_before_x", i + 1));
+    }
+
+    /// Names Λ of link i and the products in it, which must be there by now: naming them must not be what makes them.
+    pub(super) fn name_lambda(&self, i: usize) {
+        let axes = ["x", "y", "z"];
+        for (j, row) in axes.into_iter().enumerate() {
+            for (k, column) in axes.into_iter().enumerate().skip(j) {
+                let product = self.velocity.0[j] * self.velocity.0[k];
+                product.labelled("ww", || format!("ww_{row}{column}_{}", i + 1));
+            }
+        }
+        for (row, axis) in self.lambda().iter().zip(axes) {
+            row.labelled("lam", |other| format!("lam_{axis}{other}_{}", i + 1));
         }
     }
 
@@ -139,10 +173,7 @@ pub(super) fn inward<'g>(
                 .labelled("own_wrench", |axis| format!("f{axis}_own_{}", i + 1));
             own.moment
                 .labelled("own_wrench", |axis| format!("n{axis}_own_{}", i + 1));
-            // Every product of Λ is there by now: naming them must not be what makes them.
-            for (row, axis) in motions[i].lambda().iter().zip(["x", "y", "z"]) {
-                row.labelled("lam", |other| format!("lam_{axis}{other}_{}", i + 1));
-            }
+            motions[i].name_lambda(i);
             force = force + own.force;
             moment = moment + own.moment;
             // What the joint itself feels is for the caller to name.
@@ -191,14 +222,12 @@ pub(super) fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) 
                 .acceleration
                 .labelled("a", |axis| format!("a{axis}_{}_before", i + 1));
             if i == group.joints.start {
+                let before = motion;
                 motion = motion.map(|v| group.of_parent(v));
+                before.name_turned(group, i);
             }
             motion = motion.moved_by(joint.kind, qd[i], qdd[i]);
-            motion
-                .velocity
-                .labelled("omega", |axis| format!("w{axis}_{}", i + 1));
-            motion.angular_acceleration.named("al", &[i]);
-            motion.acceleration.named("a", &[i]);
+            motion.named(i);
             motions.push(motion);
         }
     }

@@ -27,6 +27,7 @@ use super::inverse_dynamics::{Motion, Wrench, inward, outward, unloaded};
 use super::kinematics::Twist;
 use super::mass_matrix::{Momentum, Station, stations};
 use super::mass_matrix_derivatives::{momentum_of, twists_at_joints};
+use super::outputs::named_rows;
 use super::vector::Vec3;
 use super::velocity_products::Coriolis;
 use crate::graph::Expr;
@@ -67,6 +68,7 @@ pub(crate) fn inverse_dynamics_derivatives<'g>(
     let drives: Vec<Drive<'g>> = pairs
         .map(|(joint, motion)| Drive::new(chain, joint.kind, motion))
         .collect();
+    name_drives(&drives);
     let responses = responses(chain, qd, &motions, &drives);
     let twists = twists_at_joints(chain);
     let mut by_position = vec![vec![zero; n]; n];
@@ -89,7 +91,18 @@ pub(crate) fn inverse_dynamics_derivatives<'g>(
             by_velocity[j][i] = power(twist, &responses[k][i - k].by_velocity);
         }
     }
-    [by_position, by_velocity]
+    [
+        named_rows(by_position, "tau_q"),
+        named_rows(by_velocity, "tau_qd"),
+    ]
+}
+
+fn name_drives(drives: &[Drive<'_>]) {
+    for (drive, i) in drives.iter().zip(1..) {
+        let Twist { linear, angular } = drive.twice_rate;
+        linear.labelled("psi", |axis| format!("v{axis}_psi_{i}"));
+        angular.labelled("psi", |axis| format!("w{axis}_psi_{i}"));
+    }
 }
 
 impl<'g> Drive<'g> {
@@ -129,7 +142,9 @@ fn responses<'g>(
             let [xx, yy, zz, ..] = joint.body.inertia.0;
             let own = joint.body.turn_z(joint.group_from_own);
             let own = Coriolis::of_body(&own, xx + yy + zz, motions[i].velocity);
+            own.labelled(i, "_own");
             let mut coriolis = beyond.map_or(own, |beyond| own.join(beyond));
+            coriolis.labelled(i, "");
             let kind = joint.kind;
             let response = Response::new(
                 chain,
@@ -140,6 +155,7 @@ fn responses<'g>(
                 &drives[i],
             );
             responses.insert(0, response);
+            (i..).zip(&responses).for_each(|(j, x)| x.named(i, j));
             all.push(responses.clone());
             if i == 0 {
                 break;
@@ -160,6 +176,7 @@ fn responses<'g>(
             }
             let velocity = motions[i - 1].velocity.cross(joint.offset) + slide;
             let twice_velocity = velocity.scale(chain.graph.constant(2.0));
+            twice_velocity.labelled("v2", |axis| format!("v{axis}2_{}", i + 1));
             beyond = Some(coriolis.shift(&body, joint.offset, twice_velocity));
             for response in &mut responses {
                 *response = response.shift(joint.offset, twice_velocity);
@@ -196,6 +213,15 @@ impl<'g> Response<'g> {
                 coriolis.times(&axis),
             ),
         }
+    }
+
+    /// Names what joint `j` answers, as joint `i` has it.
+    fn named(&self, i: usize, j: usize) {
+        self.couple.named("k", &[i, j]);
+        self.by_position.linear.named("fq", &[i, j]);
+        self.by_position.angular.named("nq", &[i, j]);
+        self.by_velocity.linear.named("fqd", &[i, j]);
+        self.by_velocity.angular.named("nqd", &[i, j]);
     }
 
     /// The same to every vector.

@@ -12,7 +12,7 @@ use crate::schedule::{Output, Size};
 const PASSES: usize = 2;
 
 /// w, ∇w, and det(JJᵀ) over the task's rows.
-pub(super) fn kinematic_manipulability<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
+pub(super) fn outputs<'g>(chain: &Chain<'g>, choices: Choices) -> Outputs<'g> {
     let joints = chain.joint_count();
     let zero = chain.graph.constant(0.0);
     let (mut value, mut gradient, mut volume) = (zero, vec![zero; joints], zero);
@@ -21,10 +21,14 @@ pub(super) fn kinematic_manipulability<'g>(chain: &Chain<'g>, choices: Choices) 
         let basis = orthogonalise(&rows, PASSES, &OF_J);
         let duals = basis.duals().into_iter().flatten();
         let seeded: Vec<_> = rows.into_iter().flatten().zip(duals).collect();
-        volume = product(&basis.pivots);
-        value = volume.sqrt();
+        volume = product(&basis.pivots).labelled("volume", || "det_jjt".into());
+        value = volume.sqrt().labelled("w_k", || "w".into());
         let logarithmic = reverse(chain.graph, &seeded, joints);
-        gradient = logarithmic.into_iter().map(|x| value * x).collect();
+        let by_joint = logarithmic.into_iter().zip(1..).map(|(x, i)| {
+            x.labelled("dlnw_k", || format!("dlnw_{i}"));
+            (value * x).labelled("dw_k", || format!("dw_{i}"))
+        });
+        gradient = by_joint.collect();
     }
     vec![
         number("value", value),

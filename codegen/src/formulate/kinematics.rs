@@ -66,7 +66,7 @@ fn vectors_to_tool<'g>(chain: &Chain<'g>) -> (Vec<Vec3<'g>>, Vec3<'g>) {
         for i in group.joints.clone().rev() {
             vectors[i] = to_tool.named("r", &[i]);
             if i == group.joints.start {
-                to_tool = group.to_parent(to_tool);
+                to_tool = group.to_parent_named(to_tool, "r", &[i]);
             }
             to_tool = to_tool + chain.joints[i].offset;
         }
@@ -159,15 +159,16 @@ fn name_axes(axes: &Axes<'_>, name: &str) {
 
 /// J by columns, in world axes; `switch` as for any twists, below.
 pub fn jacobian_in_world<'g>(chain: &Chain<'g>, switch: usize) -> Vec<Twist<'g>> {
-    in_world(chain, &own_twists(chain), switch)
+    in_world(chain, &own_twists(chain), switch, "j")
 }
 
 /// A twist of each joint, in the axes of its group, in world axes. Those beyond group `switch` are turned down to it group by group;
-/// from there, or from their own group, the group's world axes take them to the world.
+/// from there, or from their own group, the group's world axes take them to the world, where they are called `family`.
 pub(super) fn in_world<'g>(
     chain: &Chain<'g>,
     twists: &[Twist<'g>],
     switch: usize,
+    family: &'static str,
 ) -> Vec<Twist<'g>> {
     let axes = world_axes(chain, switch);
     let columns = twists.iter().enumerate();
@@ -176,7 +177,7 @@ pub(super) fn in_world<'g>(
             let own = chain.group_of(i) + 1;
             let at = own.min(switch);
             let twist = twist.map(|v| combine(&axes[at], express(chain, v, own, at)));
-            twist.named("j", i)
+            twist.named(family, i)
         })
         .collect()
 }

@@ -36,6 +36,88 @@ const LEGEND: &[(&str, &str, &str)] = &[
         "column i of J in other axes, in which w_D is the same and costs less",
     ),
     ("dj", "dj_i_x_j ... dj_i_rz_j", "∂/∂q_i of column j of J"),
+    ("jd", "jd_x_i ... jd_rz_i", "column i of J̇"),
+    (
+        "jl",
+        "jl_i_x_j ... jl_i_rz_j",
+        "column j of the Jacobian of link i, at its frame's origin",
+    ),
+    (
+        "link_axes",
+        "rx_i_j, ry_i_j, rz_i_j",
+        "axis j of the frame of link i, in world axes",
+    ),
+    (
+        "origin",
+        "px_i, py_i, pz_i",
+        "origin of the frame of link i, m, in world axes",
+    ),
+    (
+        "o_world",
+        "ox_i_w, oy_i_w, oz_i_w",
+        "from the origin of link i - 1 to that of link i, m, in world axes",
+    ),
+    ("jdqd", "jdqd_x ... jdqd_rz", "entry of J̇ q̇"),
+    (
+        "vt",
+        "vtx_i, vty_i, vtz_i",
+        "velocity of the tool point as link i sees it, m/s",
+    ),
+    (
+        "wt",
+        "wtx_i, wty_i, wtz_i",
+        "angular velocity of the tool as link i sees it, rad/s",
+    ),
+    (
+        "at",
+        "atx_i, aty_i, atz_i",
+        "acceleration of the tool point as link i sees it, m/s²",
+    ),
+    (
+        "alt",
+        "altx_i, alty_i, altz_i",
+        "angular acceleration of the tool as link i sees it, rad/s²",
+    ),
+    (
+        "vj",
+        "vjx_i ...",
+        "velocity of the tool point as link i - 1 sees it, m/s, in the axes of link i",
+    ),
+    (
+        "wj",
+        "wjx_i ...",
+        "angular velocity of the tool as link i - 1 sees it, rad/s, in the axes of link i",
+    ),
+    (
+        "aj",
+        "ajx_i ...",
+        "acceleration of the tool point as link i - 1 sees it, m/s², in the axes of link i",
+    ),
+    (
+        "alj",
+        "aljx_i ...",
+        "angular acceleration of the tool as link i - 1 sees it, rad/s², in the axes of link i",
+    ),
+    (
+        "given",
+        "vx_by_i, vy_by_i, vz_by_i",
+        "velocity that joint i gives the tool point, m/s",
+    ),
+    (
+        "c",
+        "cx_i, cy_i, cz_i",
+        "first moment of the links from i on over the mass of all, m",
+    ),
+    (
+        "com",
+        "c_x, c_y, c_z",
+        "the centre of mass, m, in world axes",
+    ),
+    (
+        "mmc",
+        "mmcx_i, mmcy_i, mmcz_i",
+        "minus the first moment of the links from i on, kg·m",
+    ),
     // Inertia.
     (
         "own",
@@ -49,8 +131,8 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ),
     (
         "turned",
-        "mcx_from_i_z ..., mcx_from_i_zx ...",
-        "those turned about z by the joint's angle, and then about x into the axes of the link before",
+        "mcx_from_i_z ..., ixx_from_i_zx ...",
+        "those turned into the axes of the link before",
     ),
     (
         "p",
@@ -65,7 +147,11 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ("m", "m_i_j", "entry of the mass matrix M"),
     ("m_inv", "m_inv_i_j", "entry of M⁻¹"),
     ("d", "d_i", "pivot: entry of D in M = U D Uᵀ"),
-    ("d_inv", "d_inv_i", "1 / `d_i`"),
+    (
+        "d_inv",
+        "d_inv_i",
+        "1 / d_i, d_i the pivots: entries of D in M = U D Uᵀ",
+    ),
     ("u", "u_i_j", "entry of U in M = U D Uᵀ"),
     ("ud", "ud_i_j", "entry of U D"),
     (
@@ -102,6 +188,23 @@ const LEGEND: &[(&str, &str, &str)] = &[
         "dlx_i_j ...",
         "angular momentum by that rate of change at unit speed of joint j",
     ),
+    ("hqd", "hqd_i", "half of q̇_i"),
+    (
+        "chr2",
+        "chr2_i_j_k",
+        "twice Christoffel's symbol c_ijk: ∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i",
+    ),
+    (
+        "sym",
+        "sym_i_j",
+        "terms that the entries (i, j) and (j, i) of C have in common",
+    ),
+    (
+        "skew",
+        "skew_i_j",
+        "terms of entry (i, j) of C that (j, i) has with the other sign",
+    ),
+    ("cor", "cor_i_j", "entry of the Coriolis matrix C"),
     // Dynamics.
     (
         "omega",
@@ -115,8 +218,13 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ),
     (
         "a",
-        "ax_i ..., ax_i_before ...",
-        "acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before",
+        "ax_i, ay_i, az_i",
+        "acceleration of joint i's origin less gravity, m/s²",
+    ),
+    (
+        "ww",
+        "ww_xy_i ...",
+        "product of two components of the angular velocity of link i",
     ),
     (
         "lam",
@@ -140,6 +248,9 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ),
     ("tau", "tau_i", "torque of joint i, N·m"),
     ("friction", "friction_i", "friction of joint i, N·m"),
+    ("speed2", "speed2_i", "q̇_i² + smoothing²"),
+    ("speed", "speed_i", "√(q̇_i² + smoothing²)"),
+    ("slope", "slope_i", "∂/∂q̇_i of the friction of joint i"),
     (
         "bias",
         "bias_i",
@@ -151,6 +262,79 @@ const LEGEND: &[(&str, &str, &str)] = &[
         "what is left of `tau` to accelerate joint i, N·m",
     ),
     ("qdd", "qdd_i", "acceleration of joint i, rad/s²"),
+    (
+        "velocity",
+        "vx_i, vy_i, vz_i",
+        "velocity of joint i's origin, m/s",
+    ),
+    (
+        "lh",
+        "lhx_i, lhy_i, lhz_i",
+        "times the angular velocity of link i, the part of its kinetic energy that its turning adds",
+    ),
+    (
+        "e_to",
+        "e_to_i",
+        "kinetic energy of the links up to i and of the rotors before them, J",
+    ),
+    (
+        "psi",
+        "vx_psi_i ..., wx_psi_i ...",
+        "2 Ψ̇_i = 2 v_i × S_i, S_i the unit twist of joint i: how the twist is carried along",
+    ),
+    (
+        "v2",
+        "vx2_i, vy2_i, vz2_i",
+        "twice the velocity of joint i's origin in the inertial frame in which that of joint i - 1 rests",
+    ),
+    (
+        "coriolis",
+        "ppx_i ..., kxy_i ...; ppx_i_own ...",
+        "what the velocities of the links from i on (of link i alone) do to a twist (m, μ): the force μ × P and the moment K μ",
+    ),
+    (
+        "k",
+        "kx_i_j, ky_i_j, kz_i_j",
+        "couple, at joint i: what that makes joint j feel of a turning",
+    ),
+    (
+        "fq",
+        "fqx_i_j, fqy_i_j, fqz_i_j",
+        "∂/∂q_j of the force that joint j transmits, as joint i has it",
+    ),
+    (
+        "nq",
+        "nqx_i_j, nqy_i_j, nqz_i_j",
+        "∂/∂q_j of the moment that joint j transmits, as joint i has it",
+    ),
+    (
+        "fqd",
+        "fqdx_i_j, fqdy_i_j, fqdz_i_j",
+        "∂/∂q̇_j of the force that joint j transmits, as joint i has it",
+    ),
+    (
+        "nqd",
+        "nqdx_i_j, nqdy_i_j, nqdz_i_j",
+        "∂/∂q̇_j of the moment that joint j transmits, as joint i has it",
+    ),
+    ("tau_q", "tau_q_i_j", "∂τ_i/∂q_j"),
+    ("tau_qd", "tau_qd_i_j", "∂τ_i/∂q̇_j"),
+    (
+        "y",
+        "y_j_i_m, y_j_i_mx ... y_j_i_izz",
+        "torque of joint j at the unit parameter m, mx ... Izz of link i: an entry of the regressor Y",
+    ),
+    ("qqd", "qqd_i_j", "q̇_i q̇_j"),
+    (
+        "vel",
+        "vel_i_j_k",
+        "torque of joint i by the rates of joints j and k together, N·m: 2Γ_i,jk q̇_j q̇_k",
+    ),
+    (
+        "dtau",
+        "dtau_i_k",
+        "torque of joint i before less after a lock of joint k, N·m",
+    ),
     // Manipulability.
     (
         "h",
@@ -175,17 +359,24 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ("wu", "wu_r_j", "entry of WU"),
     (
         "je",
-        "je_r_j",
-        "entry of J's row r less its parts along those before",
+        "je_r_j, je_r_j_pk_s",
+        "entry of J's row r less its parts along those before; in the k-th pass, after that along row s",
     ),
     ("jee", "jee_r", "squared length of `je_r`"),
     ("jee_inv", "jee_inv_r", "1 / `jee_r`"),
     ("jmu", "jmu_r_s", "share of `je_s` in row r of J"),
+    ("jed", "jed_r_j", "entry of (JJᵀ)⁻¹J"),
+    (
+        "ty",
+        "ty_r_j",
+        "entry of Y = J U⁻ᵀ, r counting the task's rows in the order in which they are made orthogonal",
+    ),
     (
         "te",
-        "te_r_j",
-        "entry of row r of J U⁻ᵀ less its parts along those before, in the product of D⁻¹",
+        "te_r_j, te_r_j_pk_s",
+        "entry of row r of Y less its parts along those before, in the product of D⁻¹; in the k-th pass, after that along row s",
     ),
+    ("te_over_d", "te_over_d_r_j", "`te_r_j` / `d_j`"),
     ("tee", "tee_r", "squared length of `te_r` in that product"),
     ("tee_inv", "tee_inv_r", "1 / `tee_r`"),
     (
@@ -193,11 +384,29 @@ const LEGEND: &[(&str, &str, &str)] = &[
         "tmu_r_s, tmu_r_s_pk",
         "share of `te_s` in row r; what the k-th pass finds of it",
     ),
+    (
+        "ts",
+        "ts_r_s",
+        "entry of S⁻¹, S the unit triangular matrix of `tmu`",
+    ),
+    (
+        "ted",
+        "ted_r_j",
+        "entry of the dual basis of the rows of Y in that product, times D⁻¹",
+    ),
+    ("lambda", "lambda_r_s", "entry of Λ: r and s are rows of J"),
     ("w_d", "w_d", "the dynamic manipulability w_D"),
     ("volume", "det_jjt", "det(JJᵀ) over the task's rows"),
     ("dlnw", "dlnw_i", "∂ln w_D/∂q_i"),
     ("dw", "dw_i", "∂w_D/∂q_i"),
-    ("bar", "x_bar", "adjoint of x: ∂ln w_D/∂x"),
+    ("w_k", "w", "the kinematic manipulability w"),
+    ("dlnw_k", "dlnw_i", "∂ln w/∂q_i"),
+    ("dw_k", "dw_i", "∂w/∂q_i"),
+    (
+        "bar",
+        "x_bar",
+        "adjoint of x: the derivative by x of ln w_D, or of ln w where that is the result",
+    ),
 ];
 
 /// What names of a family look like, and what they mean; none for one that says so itself.

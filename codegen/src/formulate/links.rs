@@ -32,8 +32,10 @@ pub(crate) fn link_frames<'g>(chain: &Chain<'g>) -> Vec<LinkFrame<'g>> {
         let (s, c) = (joint.group_from_own.sin, joint.group_from_own.cos);
         let axes = [x.scale(c) + y.scale(s), y.scale(c) - x.scale(s), z];
         let step = across.scale(joint.across) + z.scale(joint.along);
+        step.labelled("o_world", |axis| format!("o{axis}_{}_w", i + 1));
         origin = origin + step;
         across = axes[0];
+        origin.labelled("origin", |axis| format!("p{axis}_{}", i + 1));
         frames.push(LinkFrame { axes, origin, step });
     }
     frames

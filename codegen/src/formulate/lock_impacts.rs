@@ -31,19 +31,21 @@ pub(crate) fn lock_impacts<'g>(chain: &Chain<'g>) -> Vec<Vec<Expr<'g>>> {
     let mut add = |row: usize, column: usize, term: Expr<'g>| {
         columns[column][row] = columns[column][row] + term;
     };
+    let slope = |i: usize, j: usize, k: usize| slopes[i][j][k];
     for b in 0..n {
         for a in 0..b {
-            let own = slopes[b][a][a];
-            let shared = own * (qd[a] * qd[b]);
-            add(a, b, slopes[b][a][b] * (qd[b] * qd[b]));
+            let own = slope(b, a, a);
+            let rates = |j: usize, k: usize| (qd[j] * qd[k]).named("qqd", &[j, k]);
+            let shared = (own * rates(a, b)).named("vel", &[a, a, b]);
+            add(a, b, slope(b, a, b) * rates(b, b));
             add(a, b, shared);
             add(a, a, shared);
-            add(b, a, -(own * (qd[a] * qd[a] * qd[a].of(0.5))));
+            add(b, a, -(own * (rates(a, a) * qd[a].of(0.5))));
             for c in b + 1..n {
-                let (x, y) = (slopes[c][a][b], slopes[b][a][c]);
-                let of_a = (x + y) * (qd[b] * qd[c]);
-                let of_b = (x - y) * (qd[a] * qd[c]);
-                let of_c = (y - x) * (qd[a] * qd[b]);
+                let (x, y) = (slope(c, a, b), slope(b, a, c));
+                let of_a = ((x + y) * rates(b, c)).named("vel", &[a, b, c]);
+                let of_b = ((x - y) * rates(a, c)).named("vel", &[b, a, c]);
+                let of_c = ((y - x) * rates(a, b)).named("vel", &[c, a, b]);
                 for (row, others, term) in [(a, [b, c], of_a), (b, [a, c], of_b), (c, [a, b], of_c)]
                 {
                     for column in others {
@@ -51,6 +53,11 @@ pub(crate) fn lock_impacts<'g>(chain: &Chain<'g>) -> Vec<Vec<Expr<'g>>> {
                     }
                 }
             }
+        }
+    }
+    for (k, column) in columns.iter().enumerate() {
+        for (i, x) in column.iter().enumerate() {
+            x.named("dtau", &[i, k]);
         }
     }
     columns

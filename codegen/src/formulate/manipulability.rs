@@ -48,7 +48,8 @@ impl<'g> Manipulability<'g> {
 
 /// det(JJᵀ), the squared volume that J's rows span.
 pub(crate) fn volume_squared<'g>(jacobian: &[Row<'g>]) -> Expr<'g> {
-    product(&orthogonalise(jacobian, 1, &OF_J).pivots)
+    let volume = product(&orthogonalise(jacobian, 1, &OF_J).pivots);
+    volume.labelled("volume", || "det_jjt".into())
 }
 
 /// Names rows: `family_r_j` for the entry of row r at joint j.
@@ -183,7 +184,7 @@ fn by_adjoint<'g>(
     Manipulability {
         value,
         gradient: gradient.collect(),
-        volume_squared: volume_squared(jacobian).labelled("volume", || "det_jjt".into()),
+        volume_squared: volume_squared(jacobian),
     }
 }
 
@@ -203,15 +204,17 @@ pub(super) struct Orthogonal<'g> {
     pub(super) pivots: Vec<Expr<'g>>,
     /// For each row and each before it, the coefficient.
     shares: Vec<Vec<Expr<'g>>>,
+    names: Names,
 }
 
-/// What rows made orthogonal are called, and their squared lengths, one over these, and their shares.
-pub(super) struct Names([&'static str; 4]);
+/// What rows made orthogonal are called, and their squared lengths, one over these, their shares, and the dual basis.
+#[derive(Clone, Copy)]
+pub(super) struct Names([&'static str; 5]);
 
 /// Of J's rows in the product of M⁻¹.
-pub(super) const OF_TASK: Names = Names(["te", "tee", "tee_inv", "tmu"]);
-const OF_H: Names = Names(["e", "ee", "ee_inv", "mu"]);
-pub(super) const OF_J: Names = Names(["je", "jee", "jee_inv", "jmu"]);
+pub(super) const OF_TASK: Names = Names(["te", "tee", "tee_inv", "tmu", "ted"]);
+const OF_H: Names = Names(["e", "ee", "ee_inv", "mu", "ed"]);
+pub(super) const OF_J: Names = Names(["je", "jee", "jee_inv", "jmu", "jed"]);
 
 /// The modified Gram–Schmidt process, each row going through it `passes` times.
 pub(super) fn orthogonalise<'g>(rows: &[Row<'g>], passes: usize, names: &Names) -> Orthogonal<'g> {
@@ -223,13 +226,15 @@ pub(super) fn orthogonalise_in<'g>(
     rows: &[Row<'g>],
     weights: Option<&[Expr<'g>]>,
     passes: usize,
-    Names([family, squared, inverse, share]): &Names,
+    names: &Names,
 ) -> Orthogonal<'g> {
+    let Names([family, squared, inverse, share, _]) = *names;
     let mut basis = Orthogonal {
         reduced: Vec::new(),
         weighted: Vec::new(),
         pivots: Vec::new(),
         shares: Vec::new(),
+        names: *names,
     };
     for row in rows {
         let number = basis.reduced.len();
@@ -240,15 +245,15 @@ pub(super) fn orthogonalise_in<'g>(
                 let inner = dot(&reduced, &basis.weighted[r]);
                 let coefficient = inner * (inner.of(1.0) / *pivot).named(inverse, &[r]);
                 subtract(&mut reduced, coefficient, &basis.reduced[r]);
+                let (row, other) = (number + 1, r + 1);
+                // Of one pass it is the share itself.
                 if passes > 1 {
-                    let (row, other) = (number + 1, r + 1);
                     coefficient.labelled(share, || format!("{share}_{row}_{other}_p{pass}"));
-                    // The last time, it is the row that remains.
-                    if pass < passes || r + 1 < number {
-                        for (j, x) in reduced.iter().enumerate() {
-                            let j = j + 1;
-                            x.labelled(family, || format!("{family}_{row}_{j}_p{pass}_{other}"));
-                        }
+                }
+                // The last time, it is the row that remains.
+                if pass < passes || r + 1 < number {
+                    for (j, x) in (1..).zip(&reduced) {
+                        x.labelled(family, || format!("{family}_{row}_{j}_p{pass}_{other}"));
                     }
                 }
                 match shares.get_mut(r) {
@@ -267,6 +272,9 @@ pub(super) fn orthogonalise_in<'g>(
             Some(weights) => reduced.iter().zip(weights).map(|(x, w)| *x * *w).collect(),
             None => reduced.clone(),
         };
+        for (j, x) in weighted.iter().enumerate() {
+            x.named("te_over_d", &[number, j]);
+        }
         let pivot = dot(&reduced, &weighted).named(squared, &[number]);
         basis.pivots.push(pivot);
         basis.weighted.push(weighted);
@@ -279,8 +287,9 @@ pub(super) fn orthogonalise_in<'g>(
 impl<'g> Orthogonal<'g> {
     /// One over a reduced row's squared length.
     pub(super) fn inverse_pivot(&self, row: usize) -> Expr<'g> {
+        let Names([_, _, inverse, ..]) = self.names;
         let pivot = self.pivots[row];
-        pivot.of(1.0) / pivot
+        (pivot.of(1.0) / pivot).named(inverse, &[row])
     }
 
     /// The inverse of the unit lower triangular matrix that makes the rows of the reduced ones.
@@ -293,6 +302,9 @@ impl<'g> Orthogonal<'g> {
                 -terms.fold(zero, |sum, x| sum + x)
             });
             let mut row: Row<'g> = below.chain([one]).collect();
+            for (r, x) in row.iter().enumerate() {
+                x.named("ts", &[s, r]);
+            }
             row.resize(self.shares.len(), zero);
             inverse.push(row);
         }
@@ -301,11 +313,11 @@ impl<'g> Orthogonal<'g> {
 
     /// G⁻¹H: the rows' dual basis.
     pub(super) fn duals(&self) -> Vec<Row<'g>> {
-        let scaled = |(r, (row, pivot)): (usize, (&Row<'g>, &Expr<'g>))| {
-            let inverse = (pivot.of(1.0) / *pivot).named("ee_inv", &[r]);
+        let scaled = |(r, row): (usize, &Row<'g>)| {
+            let inverse = self.inverse_pivot(r);
             row.iter().map(|x| *x * inverse).collect()
         };
-        let rows = self.weighted.iter().zip(&self.pivots).enumerate();
+        let rows = self.weighted.iter().enumerate();
         let mut duals: Vec<Row<'g>> = rows.map(scaled).collect();
         for s in (0..duals.len()).rev() {
             let dual = duals[s].clone();
@@ -313,7 +325,8 @@ impl<'g> Orthogonal<'g> {
                 subtract(&mut duals[r], *coefficient, &dual);
             }
         }
-        named(duals, "ed")
+        let Names([.., dual]) = self.names;
+        named(duals, dual)
     }
 }
 

@@ -60,24 +60,35 @@ pub(super) fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
     for group in &chain.groups {
         for i in group.joints.clone() {
             let joint = &chain.joints[i];
-            for twist in &mut twists {
+            for (k, twist) in twists.iter_mut().enumerate() {
                 twist.linear = twist.linear + twist.angular.cross(joint.offset);
                 if i == group.joints.start {
-                    *twist = twist.map(|v| group.of_parent(v));
+                    let place = |what: &'static str| {
+                        move |axis: &str| format!("{what}{axis}_{}_at_{}", k + 1, i + 1)
+                    };
+                    twist
+                        .linear
+                        .labelled("twist", |axis| place("v")(axis) + "_before");
+                    twist.linear = group.of_parent_named(twist.linear, "twist", place("v"));
+                    twist.angular = group.of_parent_named(twist.angular, "twist", place("w"));
                 }
             }
-            for (k, twist) in twists.iter().enumerate() {
-                let place = |what: &'static str| {
-                    move |axis: &str| format!("{what}{axis}_{}_at_{}", k + 1, i + 1)
-                };
-                twist.linear.labelled("twist", place("v"));
-                twist.angular.labelled("twist", place("w"));
-            }
+            name_twists(&twists, i);
             all.push(twists.clone());
             twists.push(Twist::unit(chain, joint.kind));
         }
     }
     all
+}
+
+/// Names the unit twists of the joints from the first on as joint `i` has them.
+pub(super) fn name_twists(twists: &[Twist<'_>], i: usize) {
+    for (k, twist) in twists.iter().enumerate() {
+        let place =
+            |what: &'static str| move |axis: &str| format!("{what}{axis}_{}_at_{}", k + 1, i + 1);
+        twist.linear.labelled("twist", place("v"));
+        twist.angular.labelled("twist", place("w"));
+    }
 }
 
 /// (s × s_i) · F, where s_i is the unit twist of a joint of this kind along z.

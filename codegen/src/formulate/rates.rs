@@ -32,6 +32,8 @@ pub(crate) fn jacobian_rate<'g>(
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
             let turned = spins[i].cross(chain.axis());
+            place.named("r", &[i]);
+            velocity.named("vt", &[i]);
             rates.push(match joint.kind {
                 JointKind::Revolute => Twist {
                     linear: spins[i].cross(across(chain, place)) + across(chain, velocity),
@@ -44,14 +46,15 @@ pub(crate) fn jacobian_rate<'g>(
             });
             velocity = velocity + moved(chain, i, place, qd[i]);
             if i == group.joints.start {
-                place = group.to_parent(place);
-                velocity = group.to_parent(velocity);
+                place = group.to_parent_named(place, "r", &[i]);
+                velocity = velocity.named("vj", &[i]);
+                velocity = group.to_parent_named(velocity, "vj", &[i]);
             }
             place = place + joint.offset;
         }
     }
     rates.reverse();
-    in_world(chain, &rates, switch)
+    in_world(chain, &rates, switch, "jd")
 }
 
 /// J̇ q̇ in world axes.
@@ -66,6 +69,11 @@ pub(crate) fn bias_acceleration<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Twist
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
+            place.named("r", &[i]);
+            velocity.named("vt", &[i]);
+            spin.named("wt", &[i]);
+            acceleration.linear.named("at", &[i]);
+            acceleration.angular.named("alt", &[i]);
             let moved = moved(chain, i, place, qd[i]);
             if joint.kind == JointKind::Revolute {
                 // q̇ z × (q̇ z × r) + 2 q̇ z × u.
@@ -77,10 +85,14 @@ pub(crate) fn bias_acceleration<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Twist
             }
             velocity = velocity + moved;
             if i == group.joints.start {
-                place = group.to_parent(place);
-                velocity = group.to_parent(velocity);
-                spin = group.to_parent(spin);
-                acceleration = acceleration.map(|v| group.to_parent(v));
+                let to_parent = |v: Vec3<'g>, family| {
+                    group.to_parent_named(v.named(family, &[i]), family, &[i])
+                };
+                place = group.to_parent_named(place, "r", &[i]);
+                velocity = to_parent(velocity, "vj");
+                spin = to_parent(spin, "wj");
+                acceleration.linear = to_parent(acceleration.linear, "aj");
+                acceleration.angular = to_parent(acceleration.angular, "alj");
             }
             place = place + joint.offset;
         }
@@ -90,10 +102,11 @@ pub(crate) fn bias_acceleration<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Twist
 
 /// The velocity that a joint gives a point at `place`.
 fn moved<'g>(chain: &Chain<'g>, joint: usize, place: Vec3<'g>, rate: Expr<'g>) -> Vec3<'g> {
-    match chain.joints[joint].kind {
+    let velocity = match chain.joints[joint].kind {
         JointKind::Revolute => across(chain, place).scale(rate),
         JointKind::Prismatic => chain.axis().scale(rate),
-    }
+    };
+    velocity.labelled("given", |axis| format!("v{axis}_by_{}", joint + 1))
 }
 
 /// The links' angular velocities, base first, in the axes of their groups.
@@ -101,12 +114,13 @@ fn angular_velocities<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Vec3<'g>> {
     let mut spin = chain.zero();
     let mut spins = Vec::new();
     for group in &chain.groups {
-        spin = group.of_parent(spin);
+        let i = group.joints.start;
+        spin = group.of_parent_named(spin, "omega", |axis| format!("w{axis}_{}", i + 1));
         for i in group.joints.clone() {
             if chain.joints[i].kind == JointKind::Revolute {
                 spin = spin + chain.axis().scale(qd[i]);
             }
-            spins.push(spin);
+            spins.push(spin.labelled("omega", |axis| format!("w{axis}_{}", i + 1)));
         }
     }
     spins

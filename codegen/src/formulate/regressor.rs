@@ -14,6 +14,7 @@ use ulna::{JointKind, Parameter};
 use super::chain::Chain;
 use super::inverse_dynamics::{Motion, times};
 use super::kinematics::Twist;
+use super::mass_matrix_derivatives::name_twists;
 use super::vector::{Turn, Vec3};
 use crate::graph::{Expr, Input};
 
@@ -63,15 +64,19 @@ pub(crate) fn regressor_columns<'g>(chain: &Chain<'g>, asked: Columns) -> Vec<Ve
         let (qd, qdd) = (Input::Qd(i), Input::Qdd(i));
         let [qd, qdd] = [qd, qdd].map(|input| chain.graph.input(input));
         motion = step.motion(motion).moved_by(chain.rows[i].kind, qd, qdd);
+        motion.named(i);
         for twist in &mut twists {
             *twist = step.twist(*twist);
         }
+        name_twists(&twists, i);
         twists.push(Twist::unit(chain, chain.rows[i].kind));
         let wrenches = Wrenches::of(&motion);
+        motion.name_lambda(i);
         let mut rows: Vec<Row<'g>> = twists.iter().map(|twist| wrenches.power(twist)).collect();
         for (row, before) in rows.iter_mut().zip(&before) {
             step.inherit(row, before);
         }
+        rows.iter().enumerate().for_each(|(j, row)| name(row, j, i));
         let column = |parameter: Parameter| {
             let entry = |j: usize| match rows.get(j) {
                 Some(row) if asked.contain(i, parameter) => row[parameter.index()],
@@ -83,6 +88,14 @@ pub(crate) fn regressor_columns<'g>(chain: &Chain<'g>, asked: Columns) -> Vec<Ve
         before = rows;
     }
     blocks
+}
+
+/// Names the torques of joint j by the parameters of link i.
+fn name(row: &Row<'_>, j: usize, i: usize) {
+    for (x, parameter) in row.iter().zip(Parameter::ALL) {
+        let parameter = parameter.name().to_lowercase();
+        x.labelled("y", || format!("y_{}_{}_{parameter}", j + 1, i + 1));
+    }
 }
 
 /// From the frame of a link to that of the next.

@@ -15,6 +15,7 @@ use super::chain::Chain;
 use super::factorization::{Factors, factor};
 use super::manipulability::{OF_TASK, Orthogonal, orthogonalise_in, volume_squared};
 use super::mass_matrix::mass_matrix;
+use super::outputs::named_rows;
 use super::task::{number, task_rows_in_world};
 use super::{Choices, Outputs, articulated};
 use crate::graph::Expr;
@@ -38,6 +39,7 @@ fn foundations<'g>(chain: &Chain<'g>, choices: Choices, passes: usize) -> Founda
         factor(&mass_matrix(chain))
     };
     let halfway: Vec<_> = rows.iter().map(|row| factors.solve_upper(row)).collect();
+    let halfway = named_rows(halfway, "ty");
     let basis = orthogonalise_in(&halfway, Some(&factors.inverse_pivots), passes, &OF_TASK);
     Foundations {
         rows,
@@ -62,6 +64,7 @@ pub(super) fn task_space_inertia<'g>(chain: &Chain<'g>, choices: Choices) -> Out
                     inverse_shares[k][r] * inverse_shares[k][c] * found.basis.inverse_pivot(k)
                 });
                 let entry = terms.fold(zero, |sum, x| sum + x);
+                entry.labelled("lambda", || format!("lambda_{}_{}", row + 1, column + 1));
                 inertia[*row][*column] = entry;
                 inertia[*column][*row] = entry;
             }

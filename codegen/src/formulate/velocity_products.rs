@@ -38,6 +38,16 @@ impl<'g> Coriolis<'g> {
         }
     }
 
+    /// Names P `ppx_i`, ... and K `kxy_i`, ... of the links from `i` on, or with `_own` behind that.
+    pub(super) fn labelled(&self, i: usize, own: &str) {
+        let i = i + 1;
+        self.momentum
+            .labelled("coriolis", |axis| format!("pp{axis}_{i}{own}"));
+        for (row, axis) in self.moment.0.iter().zip(["x", "y", "z"]) {
+            row.labelled("coriolis", |other| format!("k{axis}{other}_{i}{own}"));
+        }
+    }
+
     /// All bodies together.
     pub(super) fn join(self, other: Self) -> Self {
         Self {

@@ -92,12 +92,7 @@ impl Planar2r {
     pub const JOINT_NAMES: [&'static str; 2] = ["joint 1", "joint 2"];
     /// The base (minimal) inertial parameters: each one's link and its column in the link's block of the regressor, both from 0.
     pub const BASE_PARAMETERS: [(usize, usize); 6] = [
-        (0, 1),
-        (0, 2),
-        (0, 9),
-        (1, 1),
-        (1, 2),
-        (1, 9),
+        (0, 1), (0, 2), (0, 9), (1, 1), (1, 2), (1, 9),
     ];
 }
 #[rustfmt::skip]
@@ -112,13 +107,15 @@ impl ::ulna::Unrolled<2> for Planar2r {
     /// Mass matrix M of `τ = M q̈ + c(q, q̇) + g(q)`, N×N, full and symmetric, kg·m²: that of the links, and on its diagonal what the
     /// [rotors](ulna::Motor) behind their gears add.
     ///
-    /// Of `q` joint coordinates, rad (m).
+    /// Arguments: `q`, joint coordinates, rad (prismatic: m).
     /// Returns: Mass matrix, N×N, kg·m².
+    /// A matrix is the array of its columns.
     ///
-    /// Operations: 3, and sine and cosine of 1 angles.
+    /// Operations: 3, and sine and cosine of 1 angle.
     /// Rounding error of the worst entry, relative to the largest: 2e-15.
     ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
+    /// Names, everything counted from 1:
+    /// - `s2, c2`: sine and cosine of q_2
     /// - `m_i_j`: entry of the mass matrix M
     #[inline(always)]
     fn mass_matrix_kernel<R: ::ulna::Real>(&self, q: &[R; 2]) -> [[R; 2]; 2] {
@@ -129,18 +126,20 @@ impl ::ulna::Unrolled<2> for Planar2r {
     }
     /// Inverse dynamics τ = M q̈ + c(q, q̇) + g(q) + f(q̇), N·m, f the joints' friction; without a tool wrench.
     ///
-    /// Of `q` joint coordinates, rad (m), `qd` their rates, rad/s (m/s), `qdd` their accelerations, rad/s² (m/s²).
+    /// Arguments: `q`, joint coordinates, rad (prismatic: m); `qd`, joint rates, rad/s (m/s); `qdd`, joint accelerations, rad/s² (m/s²).
     /// Returns: Joint torques, N·m, for the accelerations `qdd`.
     ///
-    /// Operations: 27, and sine and cosine of 2 angles.
+    /// Operations: 27, and sines and cosines of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 2e-14.
     ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
+    /// Names, everything counted from 1:
+    /// - `s12, c12`: sine and cosine of q_1 + q_2
     /// - `wx_i, wy_i, wz_i`: angular velocity of link i, rad/s
     /// - `alx_i, aly_i, alz_i`: angular acceleration of link i, rad/s²
-    /// - `ax_i ..., ax_i_before ...`: acceleration of joint i's origin less gravity, m/s²; the same in the axes of the link before
+    /// - `ax_i, ay_i, az_i`: acceleration of joint i's origin less gravity, m/s²
     /// - `fx_own_i ..., nx_own_i ...`: force and moment that link i's own motion takes, N and N·m
     /// - `nx_i, ny_i, nz_i`: moment on link i from the link before, about joint i's origin, N·m
+    /// - `x_term1 ...`: a term of the sum x, or its first terms together
     #[inline(always)]
     fn inverse_dynamics_kernel<R: ::ulna::Real>(
         &self,
@@ -156,26 +155,27 @@ impl ::ulna::Unrolled<2> for Planar2r {
             R::of(0.3334895833333333),
             R::of(0.5) * (ay_1 + c2.mul_add(qdd[0], s2 * (qd[0] * qd[0]))),
         );
-        let t1 = s2.neg_mul_add(R::of(0.5) * (wz_2 * wz_2), c2 * (R::of(0.5) * alz_2));
-        let t2 = ay_1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
-        let nz_1_z = nz_own_2 + t1 + qdd[0].mul_add(R::of(1.3334895833333333), t2);
+        let nz_1_z_term1 = s2.neg_mul_add(R::of(0.5) * (wz_2 * wz_2), c2 * (R::of(0.5) * alz_2));
+        let nz_own_1_term1 = ay_1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
+        let nz_1_z = nz_own_2 + nz_1_z_term1
+            + qdd[0].mul_add(R::of(1.3334895833333333), nz_own_1_term1);
         [nz_1_z, nz_own_2]
     }
     /// w_D and its gradient ∇w_D (Eq. 22–27).
     ///
     /// Where w_D is 0, Eq. 23 has no value; the gradient returned there is the zero vector. [`ulna::arm::singular`] says where that is.
     ///
-    /// Of `q` joint coordinates, rad (m).
+    /// Arguments: `q`, joint coordinates, rad (prismatic: m).
     /// Returns: w_D, ∇w_D (Eq. 22–27), and det(JJᵀ) over the task's rows.
     ///
-    /// Operations: 125, and sine and cosine of 2 angles.
+    /// Operations: 125, and sines and cosines of 2 angles.
     /// Rounding error of the worst entry, relative to the largest: 7e-12.
     ///
-    /// Names, everything counted from 1; `x_neg` is what stands behind the minus of x, `t1` and so on have no name:
+    /// Names, everything counted from 1:
+    /// - `s12, c12`: sine and cosine of q_1 + q_2
     /// - `rx_i, ry_i, rz_i`: from joint i's origin to the tool point, m
-    /// - `j_x_i ... j_rz_i`: column i of J: rows x, y, z (velocity) and rx, ry, rz (angular velocity)
     /// - `m_i_j`: entry of the mass matrix M
-    /// - `d_inv_i`: 1 / `d_i`
+    /// - `d_inv_i`: 1 / d_i, d_i the pivots: entries of D in M = U D Uᵀ
     /// - `u_i_j`: entry of U in M = U D Uᵀ
     /// - `h_r_j`: entry of H = JM⁻¹, r counting the task's rows in the order in which they are made orthogonal
     /// - `e_r_j, e_r_j_pk_s`: entry of H's row r less its parts along those before; in the k-th pass, after that along row s
@@ -184,13 +184,16 @@ impl ::ulna::Unrolled<2> for Planar2r {
     /// - `mu_r_s, mu_r_s_pk`: share of `e_s` in row r of H; what the k-th pass finds of it
     /// - `ed_r_j`: entry of (HHᵀ)⁻¹H
     /// - `w_r_j`: entry of W = (HHᵀ)⁻¹HM⁻¹
-    /// - `je_r_j`: entry of J's row r less its parts along those before
+    /// - `je_r_j, je_r_j_pk_s`: entry of J's row r less its parts along those before; in the k-th pass, after that along row s
     /// - `jee_r`: squared length of `je_r`
     /// - `jmu_r_s`: share of `je_s` in row r of J
     /// - `w_d`: the dynamic manipulability w_D
     /// - `det_jjt`: det(JJᵀ) over the task's rows
     /// - `dw_i`: ∂w_D/∂q_i
-    /// - `x_bar`: adjoint of x: ∂ln w_D/∂x
+    /// - `x_bar`: adjoint of x: the derivative by x of ln w_D, or of ln w where that is the result
+    /// - `x_z, x_zx`: x turned about z by the joint's angle, and then about x into the axes of the link before
+    /// - `x_neg`: what stands behind the minus of x
+    /// - `t1 ...`: parts of formulas, without a name
     #[inline(always)]
     fn dynamic_manipulability_gradient_kernel<R: ::ulna::Real>(
         &self,
@@ -198,14 +201,14 @@ impl ::ulna::Unrolled<2> for Planar2r {
     ) -> (R, [R; 2], R) {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
         let rx_1 = R::of(1.0) + c2;
-        let j_y_1 = c12.mul_add(rx_1, s12 * s2);
-        let j_x_1_neg = c12.neg_mul_add(s2, s12 * rx_1);
+        let rx_1_z = c12.mul_add(rx_1, s12 * s2);
+        let ry_1_z = c12.neg_mul_add(s2, s12 * rx_1);
         let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
         let u_1_2 = m_1_2 * R::of(2.9985944088708423);
         let d_inv_1 = R::of(1.0) / m_1_2.neg_mul_add(u_1_2, R::of(1.6669791666666667) + c2);
-        let h_1_1 = d_inv_1 * s12.mul_sub(u_1_2, j_x_1_neg);
+        let h_1_1 = d_inv_1 * s12.mul_sub(u_1_2, ry_1_z);
         let h_1_2_neg = s12.mul_add(R::of(2.9985944088708423), u_1_2 * h_1_1);
-        let h_2_1 = d_inv_1 * c12.neg_mul_add(u_1_2, j_y_1);
+        let h_2_1 = d_inv_1 * c12.neg_mul_add(u_1_2, rx_1_z);
         let h_2_2 = u_1_2.neg_mul_add(h_2_1, c12 * R::of(2.9985944088708423));
         let ee_1 = h_1_1.mul_add(h_1_1, h_1_2_neg * h_1_2_neg);
         let ee_inv_1 = R::of(1.0) / ee_1;
@@ -236,9 +239,9 @@ impl ::ulna::Unrolled<2> for Planar2r {
             c12 * s2.mul_add(w_2_1, rx_1.neg_mul_add(w_1_1, w_1_2_neg)),
         );
         let angle_2_bar = s2.neg_mul_add(t1, c2 * c12.mul_add(w_1_1, s12 * w_2_1));
-        let jee_1 = j_x_1_neg.mul_add(j_x_1_neg, s12 * s12);
-        let jmu_2_1_neg = j_y_1.mul_add(j_x_1_neg, s12 * c12) * (R::of(1.0) / jee_1);
-        let je_2_1 = j_x_1_neg.neg_mul_add(jmu_2_1_neg, j_y_1);
+        let jee_1 = ry_1_z.mul_add(ry_1_z, s12 * s12);
+        let jmu_2_1_neg = rx_1_z.mul_add(ry_1_z, s12 * c12) * (R::of(1.0) / jee_1);
+        let je_2_1 = ry_1_z.neg_mul_add(jmu_2_1_neg, rx_1_z);
         let je_2_2 = s12.neg_mul_add(jmu_2_1_neg, c12);
         let dw_1 = w_d * angle_1_2_bar;
         let dw_2 = w_d * (angle_1_2_bar + angle_2_bar);
