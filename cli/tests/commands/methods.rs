@@ -82,7 +82,7 @@ fn an_unknown_method_is_a_usage_error_with_the_list() {
             "{said}"
         );
         assert!(
-            said.contains("forward_kinematics, geometric_jacobian"),
+            said.contains("forward_kinematics, link_poses, geometric_jacobian"),
             "{said}"
         );
     }
