@@ -12,8 +12,6 @@ use ulna::Arm;
 use ulna::nalgebra::Vector2;
 
 fn main() {
-    let (names, base) = (Planar2r::JOINT_NAMES, Planar2r::BASE_PARAMETERS);
-    println!("{}: {} base parameters", names.join(", "), base.len());
     let q = Vector2::new(0.3, -1.2);
     let (w_d, gradient) = Planar2r.dynamic_manipulability_gradient(&q);
     println!("M = {:?}", Planar2r.mass_matrix(&q).as_slice());
