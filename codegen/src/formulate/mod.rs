@@ -23,6 +23,7 @@ pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
 mod matrix;
+mod origins;
 pub(crate) mod rates;
 pub(crate) mod regressor;
 pub(crate) mod task;
