@@ -18,10 +18,12 @@ pub(crate) fn kinetic_energy<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Expr<'g>
     for group in &chain.groups {
         for i in group.joints.clone() {
             let joint = &chain.joints[i];
-            motion.linear = motion.linear + motion.angular.cross(joint.offset);
+            let [along, rest] = joint.legs;
+            motion.linear = motion.linear + motion.angular.cross(rest);
             if i == group.joints.start {
                 motion = motion.map(|v| group.of_parent(v));
             }
+            motion.linear = motion.linear + motion.angular.cross(along);
             let along = chain.axis().scale(qd[i]);
             match joint.kind {
                 JointKind::Revolute => motion.angular = motion.angular + along,

@@ -19,9 +19,12 @@
 //!
 //! Differentiating the formulas of τ itself takes 1.4 times the operations, of ssrms as of oblique joints.
 
+use std::iter;
+
 use ulna::JointKind;
 
-use super::chain::Chain;
+use super::body::Body;
+use super::chain::{Chain, Group};
 use super::friction::friction_slope;
 use super::inverse_dynamics::{Motion, Wrench, inward, outward, unloaded};
 use super::kinematics::Twist;
@@ -121,53 +124,79 @@ fn responses<'g>(
     let stations = stations(chain);
     let wrenches = inward(chain, motions, unloaded(chain));
     let mut all = Vec::new();
-    let mut beyond: Option<Coriolis<'g>> = None;
-    let mut responses: Vec<Response<'g>> = Vec::new();
+    let mut beyond: Option<Beyond<'g>> = None;
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
-            let joint = &chain.joints[i];
+            let (joint, station) = (&chain.joints[i], &stations[i]);
+            let kind = joint.kind;
             let [xx, yy, zz, ..] = joint.body.inertia.0;
             let own = joint.body.turn_z(joint.group_from_own);
             let own = Coriolis::of_body(&own, xx + yy + zz, motions[i].velocity);
-            let mut coriolis = beyond.map_or(own, |beyond| own.join(beyond));
-            let kind = joint.kind;
-            let response = Response::new(
-                chain,
-                kind,
-                &stations[i],
-                &coriolis,
-                &wrenches[i],
-                &drives[i],
-            );
-            responses.insert(0, response);
-            all.push(responses.clone());
-            if i == 0 {
-                break;
-            }
+            let (coriolis, passed) = match beyond {
+                Some(beyond) => (own.join(beyond.coriolis), beyond.responses),
+                None => (own, Vec::new()),
+            };
+            let response = Response::new(chain, kind, station, &coriolis, &wrenches[i], &drives[i]);
+            let mut here = Beyond {
+                body: station.composite,
+                coriolis,
+                responses: iter::once(response).chain(passed).collect(),
+            };
+            all.push(here.responses.clone());
             // To the joint before.
-            let mut body = stations[i].composite;
+            let [along, rest] = joint.legs;
             let mut slide = match kind {
                 JointKind::Revolute => chain.zero(),
                 JointKind::Prismatic => chain.axis().scale(qd[i]),
             };
             if i == group.joints.start {
-                coriolis = coriolis.to_parent(group);
-                body = body.turn_z(group.turn).turn_x(group.alpha);
-                slide = group.to_parent(slide);
-                for response in &mut responses {
-                    *response = response.map(|v| group.to_parent(v));
-                }
+                here = here.shift(along, motions[i].velocity.cross(along) + slide);
+                here = here.to_parent(group);
+                slide = chain.zero();
             }
-            let velocity = motions[i - 1].velocity.cross(joint.offset) + slide;
-            let twice_velocity = velocity.scale(chain.graph.constant(2.0));
-            beyond = Some(coriolis.shift(&body, joint.offset, twice_velocity));
-            for response in &mut responses {
-                *response = response.shift(joint.offset, twice_velocity);
+            if i > 0 {
+                here = here.shift(rest, motions[i - 1].velocity.cross(rest) + slide);
             }
+            beyond = Some(here);
         }
     }
     all.reverse();
     all
+}
+
+/// What is known at a joint of all links beyond it: about its origin, in its group's axes, seen from its own inertial frame.
+struct Beyond<'g> {
+    /// They as one body.
+    body: Body<'g>,
+    coriolis: Coriolis<'g>,
+    responses: Vec<Response<'g>>,
+}
+
+impl<'g> Beyond<'g> {
+    /// In the axes of the group before.
+    fn to_parent(self, group: &Group<'g>) -> Self {
+        let responses = self.responses.into_iter();
+        Self {
+            body: self.body.turn_z(group.turn).turn_x(group.alpha),
+            coriolis: self.coriolis.to_parent(group),
+            responses: responses
+                .map(|response| response.map(|v| group.to_parent(v)))
+                .collect(),
+        }
+    }
+
+    /// About an origin from which its own lies at `r` and moves away with `velocity`.
+    fn shift(self, r: Vec3<'g>, velocity: Vec3<'g>) -> Self {
+        let twice_velocity = velocity + velocity;
+        let responses = self.responses.into_iter();
+        Self {
+            body: self.body.shift(r),
+            coriolis: self.coriolis.shift(&self.body, r, twice_velocity),
+            responses: responses
+                .map(|response| response.shift(r, twice_velocity))
+                .collect(),
+        }
+    }
 }
 
 impl<'g> Response<'g> {
@@ -214,15 +243,11 @@ impl<'g> Response<'g> {
 
     /// About an origin from which its own lies at `r` and moves away with half of `twice_v`.
     fn shift(self, r: Vec3<'g>, twice_v: Vec3<'g>) -> Self {
-        let shift = |wrench: Momentum<'g>| Momentum {
-            linear: wrench.linear,
-            angular: wrench.angular + r.cross(wrench.linear),
-        };
         Self {
-            momentum: shift(self.momentum),
+            momentum: self.momentum.shift(r),
             couple: self.couple + twice_v.cross(self.momentum.linear),
-            by_position: shift(self.by_position),
-            by_velocity: shift(self.by_velocity),
+            by_position: self.by_position.shift(r),
+            by_velocity: self.by_velocity.shift(r),
         }
     }
 }

@@ -61,10 +61,12 @@ pub(super) fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
         for i in group.joints.clone() {
             let joint = &chain.joints[i];
             for twist in &mut twists {
-                twist.linear = twist.linear + twist.angular.cross(joint.offset);
+                let [along, rest] = joint.legs;
+                twist.linear = twist.linear + twist.angular.cross(rest);
                 if i == group.joints.start {
                     *twist = twist.map(|v| group.of_parent(v));
                 }
+                twist.linear = twist.linear + twist.angular.cross(along);
             }
             for (k, twist) in twists.iter().enumerate() {
                 let place = |what: &'static str| {
