@@ -63,6 +63,20 @@ pub(crate) fn inverse_dynamics_derivatives<'g>(
     qdd: &[Expr<'g>],
     meeting: usize,
 ) -> [Square<'g>; 2] {
+    let [by_position, mut by_velocity] = frictionless(chain, qd, qdd, meeting);
+    for (i, slope) in friction_slope(chain, qd).into_iter().enumerate() {
+        by_velocity[i][i] = by_velocity[i][i] + slope;
+    }
+    [by_position, by_velocity]
+}
+
+/// The same without friction.
+pub(super) fn frictionless<'g>(
+    chain: &Chain<'g>,
+    qd: &[Expr<'g>],
+    qdd: &[Expr<'g>],
+    meeting: usize,
+) -> [Square<'g>; 2] {
     let n = chain.joint_count();
     let (zero, half) = (chain.graph.constant(0.0), chain.graph.constant(0.5));
     let motions = outward(chain, qd, qdd);
@@ -74,7 +88,6 @@ pub(crate) fn inverse_dynamics_derivatives<'g>(
     let twists = twists_at_joints(chain);
     let mut by_position = vec![vec![zero; n]; n];
     let mut by_velocity = vec![vec![zero; n]; n];
-    let friction_slopes = friction_slope(chain, qd);
     for (j, i) in (0..n).flat_map(|i| (0..=i).map(move |j| (j, i))) {
         let (drive, response) = (&drives[j], &responses[j][i - j]);
         let axis = Twist::unit(chain, chain.joints[j].kind);
@@ -82,9 +95,6 @@ pub(crate) fn inverse_dynamics_derivatives<'g>(
         let (momentum, couple) = (&response.momentum, response.couple);
         by_position[i][j] = power(&drive.acceleration, momentum) + rate.angular.dot(couple);
         by_velocity[i][j] = power(&drive.twice_rate, momentum) + axis.angular.dot(couple);
-        if j == i {
-            by_velocity[i][i] = by_velocity[i][i] + friction_slopes[i];
-        }
         if j < i {
             let k = meeting.clamp(j, i);
             let twist = twists[k].get(j).unwrap_or(&axis);

@@ -72,6 +72,10 @@ pub struct Choices {
     pub base: Columns,
     /// The joint at which twists and wrenches meet in ∂τ/∂q and ∂τ/∂q̇.
     pub meeting: usize,
+    /// Whether ∂q̈ takes what velocities do to τ from ∂τ/∂q̇, and not from an inverse dynamics.
+    pub by_slopes: bool,
+    /// Whether ∂q̈ is a product with M⁻¹, and not solved for.
+    pub multiplied: bool,
 }
 
 /// As the table says.
@@ -88,6 +92,8 @@ impl Default for Choices {
             singular: false,
             base: Columns::default(),
             meeting: 0,
+            by_slopes: false,
+            multiplied: false,
         }
     }
 }
@@ -101,6 +107,8 @@ pub(crate) enum Chosen {
     Task,
     /// [`Choices::meeting`].
     Meeting,
+    /// How ∂q̈ follows from ∂τ.
+    Accelerations,
 }
 
 /// The choices that a method's formulas depend on. One that is not listed may depend on all of them:
@@ -120,7 +128,9 @@ pub(crate) fn depends_on(method: Method) -> &'static [Chosen] {
         | Method::MassMatrixAndDerivatives => &[],
         Method::GeometricJacobian | Method::JacobianDerivatives => &[Chosen::World],
         Method::InverseDynamicsDerivatives => &[Chosen::Meeting],
-        Method::ForwardDynamicsDerivatives => &[Chosen::Task, Chosen::Meeting],
+        Method::ForwardDynamicsDerivatives => {
+            &[Chosen::Task, Chosen::Meeting, Chosen::Accelerations]
+        }
         _ => &[Chosen::World, Chosen::Task],
     }
 }
