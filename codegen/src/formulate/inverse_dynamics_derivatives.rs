@@ -161,7 +161,7 @@ fn responses<'g>(
             };
             if i == group.joints.start {
                 here = here.shift(along, motions[i].velocity.cross(along) + slide);
-                here = here.to_parent(group);
+                here = here.in_parent(group);
                 slide = chain.zero();
             }
             if i > 0 {
@@ -184,7 +184,7 @@ struct Beyond<'g> {
 
 impl<'g> Beyond<'g> {
     /// In the axes of the group before.
-    fn to_parent(self, group: &Group<'g>) -> Self {
+    fn in_parent(self, group: &Group<'g>) -> Self {
         let responses = self.responses.into_iter();
         Self {
             body: self.body.turn_z(group.turn).turn_x(group.alpha),

@@ -1,8 +1,9 @@
 //! Where along its axis a joint has its origin: no motion depends on it.
 //!
-//! Origins of joints about parallel axes lie in one plane across them, that of the last one, which stays where the table has it. All that the
-//! group is long along its axes comes before its first joint then, in one step along an axis, and what passes from joint to joint
-//! is moved across the axes alone: of ssrms M takes 214 operations for 246, ∂τ 1,719 for 1,840.
+//! Origins of joints about parallel axes lie in one plane across them, but for that of the last one, which stays where the table has it. All that
+//! the group is long along its axes is one step then, to its last joint, where the fewest quantities pass; between the others they are
+//! moved across the axes alone. With that M of ssrms takes 214 operations for 246 and ∂τ 1,719 for 1,840; with one step to the
+//! first joint it would be 228 and 1,772.
 
 use std::ops::Range;
 
