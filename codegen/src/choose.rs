@@ -78,16 +78,13 @@ fn of_task(model: &Model, states: &TestStates, none: Choices) -> Choices {
     cheapest_that_is_exact(model, GRADIENT, ways, states).unwrap_or(none)
 }
 
-/// How ∂q̈ should follow from ∂τ.
+/// Whether ∂q̈ should take what velocities do to τ from ∂τ/∂q̇.
 fn of_accelerations(model: &Model, states: &TestStates, choices: Choices) -> Choices {
-    let ways = [false, true].into_iter().flat_map(|by_slopes| {
-        [false, true].map(|multiplied| Choices {
-            by_slopes,
-            multiplied,
-            ..choices
-        })
+    let ways = [false, true].map(|by_slopes| Choices {
+        by_slopes,
+        ..choices
     });
-    let ways = [ways.collect()].into_iter();
+    let ways = [ways.to_vec()].into_iter();
     cheapest_that_is_exact(model, Method::ForwardDynamicsDerivatives, ways, states)
         .unwrap_or(choices)
 }

@@ -74,8 +74,6 @@ pub struct Choices {
     pub meeting: usize,
     /// Whether ∂q̈ takes what velocities do to τ from ∂τ/∂q̇, and not from an inverse dynamics.
     pub by_slopes: bool,
-    /// Whether ∂q̈ is a product with M⁻¹, and not solved for.
-    pub multiplied: bool,
 }
 
 /// As the table says.
@@ -93,7 +91,6 @@ impl Default for Choices {
             base: Columns::default(),
             meeting: 0,
             by_slopes: false,
-            multiplied: false,
         }
     }
 }
@@ -107,7 +104,7 @@ pub(crate) enum Chosen {
     Task,
     /// [`Choices::meeting`].
     Meeting,
-    /// How ∂q̈ follows from ∂τ.
+    /// [`Choices::by_slopes`].
     Accelerations,
 }
 
