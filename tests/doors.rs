@@ -10,7 +10,6 @@ use ulna_table::Model;
 
 const TABLE: &str = "arms/planar_2r.toml";
 
-<<<<<<< HEAD
 /// What a generator writes today.
 fn generated(generator: &Generator) -> String {
     let model = Model::load(root().join(TABLE)).unwrap();
@@ -24,26 +23,6 @@ fn of_three_methods() -> Generator {
         Method::InverseDynamics,
         Method::DynamicManipulabilityGradient,
     ])
-=======
-fn model() -> Model {
-    Model::load(root().join(TABLE)).unwrap()
-}
-
-/// What the generator writes today of all methods.
-fn whole() -> String {
-    Generator::new().generate(&model(), TABLE).source()
-}
-
-/// What the generator writes today of the methods that the checked-in example needs.
-fn generated() -> String {
-    let methods = [
-        Method::MassMatrix,
-        Method::InverseDynamics,
-        Method::DynamicManipulabilityGradient,
-    ];
-    let generator = Generator::new().methods(&methods);
-    generator.generate(&model(), TABLE).source()
->>>>>>> i12-labels
 }
 
 /// Two mistakes in joint 2 of the planar arm.
@@ -91,11 +70,7 @@ fn all_doors_lead_to_the_same_code() {
         if let Some(out_dir) = build.out_dir {
             assert_eq!(
                 fs::read_to_string(out_dir.join("planar_2r.rs")).unwrap(),
-<<<<<<< HEAD
                 generated(&Generator::new())
-=======
-                whole()
->>>>>>> i12-labels
             );
         }
         example.run()

@@ -36,11 +36,14 @@ pub(super) fn choose(model: &Model, states: &TestStates, methods: MethodSet) -> 
     let world = is_needed(Chosen::World).then(|| of_jacobian(model, states, none));
     let task = is_needed(Chosen::Task).then(|| of_task(model, states, none));
     let meeting = is_needed(Chosen::Meeting).then(|| fewest_operations_at(model));
-    Choices {
+    let choices = Choices {
         meeting: meeting.unwrap_or(none.meeting),
         world: world.unwrap_or(none).world,
         ..task.unwrap_or(none)
-    }
+    };
+    let accelerations =
+        is_needed(Chosen::Accelerations).then(|| of_accelerations(model, states, choices));
+    accelerations.unwrap_or(choices)
 }
 
 /// The frames that J may be built in.
@@ -73,6 +76,17 @@ fn of_task(model: &Model, states: &TestStates, none: Choices) -> Choices {
         all
     });
     cheapest_that_is_exact(model, GRADIENT, ways, states).unwrap_or(none)
+}
+
+/// Whether ∂q̈ should take what velocities do to τ from ∂τ/∂q̇.
+fn of_accelerations(model: &Model, states: &TestStates, choices: Choices) -> Choices {
+    let ways = [false, true].map(|by_slopes| Choices {
+        by_slopes,
+        ..choices
+    });
+    let ways = [ways.to_vec()].into_iter();
+    cheapest_that_is_exact(model, Method::ForwardDynamicsDerivatives, ways, states)
+        .unwrap_or(choices)
 }
 
 /// The joint at which twists and wrenches should meet in ∂τ: one of the outer half.

@@ -196,7 +196,12 @@ fn parted(joint: &Joint, parameter: Parameter) -> (Numbers, Numbers) {
     };
     (
         numbers(part),
-        numbers(seen_from_link_before(&graph, joint, part)),
+        numbers(seen_from_link_before(
+            &graph,
+            joint,
+            graph.constant(joint.d),
+            part,
+        )),
     )
 }
 

@@ -29,11 +29,12 @@ pub(crate) fn add_to_last<'g>(bodies: &mut [Body<'g>], body: Body<'g>) {
 ///
 /// What a revolute joint's turning cannot change (mass, first moment along the axis, and as much of the inertia
 /// as is round about it) is counted with the link before; likewise the whole inertia tensor behind a prismatic joint.
-/// M and τ stay the same, and many constants become zero. What reaches the base, which neither feels, is the second result,
+/// M and τ stay the same, and many constants become zero. The links' origins are `heights` apart along the joints' axes. What reaches the base, which neither feels, is the second result,
 /// about the base's origin.
 pub(crate) fn base_parameters<'g>(
     graph: &'g Graph,
     model: &Model,
+    heights: &[Expr<'g>],
     links: &[Body<'g>],
 ) -> (Vec<Body<'g>>, Body<'g>) {
     let mut bodies = links.to_vec();
@@ -45,15 +46,16 @@ pub(crate) fn base_parameters<'g>(
             0 => &mut ground,
             _ => &mut bodies[i - 1],
         };
-        *before = before.join(seen_from_link_before(graph, joint, passed));
+        *before = before.join(seen_from_link_before(graph, joint, heights[i], passed));
     }
     (bodies, ground)
 }
 
-/// A body of a joint's link in the frame of the link before, the joint at rest.
+/// A body of a joint's link in the frame of the link before, the joint at rest, the origins `height` apart along its axis.
 pub(crate) fn seen_from_link_before<'g>(
     graph: &'g Graph,
     joint: &Joint,
+    height: Expr<'g>,
     body: Body<'g>,
 ) -> Body<'g> {
     let (alpha, theta) = (
@@ -61,7 +63,7 @@ pub(crate) fn seen_from_link_before<'g>(
         Turn::by_angle(graph, joint.theta),
     );
     let zero = graph.constant(0.0);
-    let along = Vec3([zero, zero, graph.constant(joint.d)]);
+    let along = Vec3([zero, zero, height]);
     let origin = Vec3([graph.constant(joint.a), zero, zero]) + along.turn_x(alpha);
     body.turn_z(theta).turn_x(alpha).shift(origin)
 }

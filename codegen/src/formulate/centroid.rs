@@ -17,11 +17,13 @@ fn first_moment<'g>(chain: &Chain<'g>, factor: Expr<'g>, family: &'static str) -
             mass = mass + joint.body.mass * factor;
             let own = joint.body.moment.scale(factor);
             moment = moment + own.turn_z(joint.group_from_own);
+            let [along, rest] = joint.legs;
+            moment = moment + along.scale(mass);
             moment.named(family, &[i]);
             if i == group.joints.start {
                 moment = group.to_parent_named(moment, family, &[i]);
             }
-            moment = moment + joint.offset.scale(mass);
+            moment = moment + rest.scale(mass);
         }
     }
     moment + chain.ground.moment.scale(factor)

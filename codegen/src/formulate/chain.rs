@@ -11,6 +11,7 @@ use ulna::{Angle, Friction, Joint, JointKind, Motor, Placement, TaskRows};
 use ulna_table::Model;
 
 use super::body::{Body, add_to_last, base_parameters};
+use super::origins::Origins;
 use super::vector::{Turn, Vec3, quarter_turns};
 use crate::double_double::DoubleDouble;
 use crate::graph::{AngleSum, Expr, Graph, Input};
@@ -21,16 +22,19 @@ use crate::label::subscripts;
 pub struct ChainJoint<'g> {
     /// How the joint moves.
     pub kind: JointKind,
-    /// From the origin of the joint before to this one's: in this group's axes or, for the first of a group,
+    /// From the [origin](super::origins) of the joint before to this one's: in this group's axes or, for the first of a group,
     /// in the axes of the group before (of the base for the very first).
     pub offset: Vec3<'g>,
+    /// The same in two legs that take fewer operations one by one, if it leads to another group: along the joint's axis, in its
+    /// group's axes, and the rest, as `offset` is. Else the first is 0.
+    pub legs: [Vec3<'g>; 2],
     /// `a` of its row: from the origin before along x of the frame before, m.
     pub across: Expr<'g>,
     /// `d` of its row, with the coordinate of a prismatic joint: on from there along the joint's axis, m.
     pub along: Expr<'g>,
     /// The turn that takes a vector of the joint's own frame to the group's axes.
     pub group_from_own: Turn<'g>,
-    /// The link's inertial constants, regrouped ([`base_parameters`]), in its own frame.
+    /// The link's inertial constants, regrouped ([`base_parameters`]), about its joint's origin, in the axes of its frame.
     pub body: Body<'g>,
     /// The same as the table has them.
     pub link: Body<'g>,
@@ -120,7 +124,9 @@ impl<'g> Chain<'g> {
             .map(|joint| Body::of_link(graph, &joint.link))
             .collect();
         let rotors = rotors(graph, model, &mut links);
-        let (mut bodies, ground) = base_parameters(graph, model, &links);
+        let origins = Origins::new(graph, model, &parallel_runs(model));
+        origins.take_up(&mut links);
+        let (mut bodies, ground) = base_parameters(graph, model, &origins.heights, &links);
         // Regrouping the payload's parameters takes more operations than it saves: they are no numbers yet.
         if model.has_payload() {
             for bodies in [&mut bodies, &mut links] {
@@ -140,9 +146,10 @@ impl<'g> Chain<'g> {
             .flat_map(|group| group.joints.clone().map(move |i| (group, i)))
             .map(|(group, i)| ChainJoint {
                 kind: model.joints()[i].kind,
-                offset: offset(graph, model, group, i).named("o", &[i]),
+                offset: offset(graph, model, origins.heights[i], group, i).named("o", &[i]),
+                legs: legs(graph, model, origins.heights[i], group, i),
                 across: graph.constant(model.joints()[i].a),
-                along: along(graph, model, i),
+                along: graph.constant(model.joints()[i].d) + slide(graph, model, i),
                 group_from_own: sum_of_angles(graph, model.joints(), i + 1..group.joints.end)
                     .inverse(),
                 body: bodies[i],
@@ -245,24 +252,41 @@ fn parallel_runs(model: &Model) -> Vec<Range<usize>> {
     runs
 }
 
-fn along<'g>(graph: &'g Graph, model: &Model, i: usize) -> Expr<'g> {
-    let joint = &model.joints()[i];
-    match joint.kind {
-        JointKind::Revolute => graph.constant(joint.d),
-        JointKind::Prismatic => graph.constant(joint.d) + graph.input(Input::Q(i)),
+/// How far a joint slides along its axis: its coordinate, or nothing.
+fn slide<'g>(graph: &'g Graph, model: &Model, i: usize) -> Expr<'g> {
+    match model.joints()[i].kind {
+        JointKind::Revolute => graph.constant(0.0),
+        JointKind::Prismatic => graph.input(Input::Q(i)),
     }
 }
 
-fn offset<'g>(graph: &'g Graph, model: &Model, group: &Group<'g>, i: usize) -> Vec3<'g> {
-    let joint = &model.joints()[i];
-    let along = along(graph, model, i);
+fn offset<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    height: Expr<'g>,
+    group: &Group<'g>,
+    i: usize,
+) -> Vec3<'g> {
+    let [along, rest] = legs(graph, model, height, group, i);
+    rest + along.turn_x(group.alpha)
+}
+
+fn legs<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    height: Expr<'g>,
+    group: &Group<'g>,
+    i: usize,
+) -> [Vec3<'g>; 2] {
     let zero = graph.constant(0.0);
-    let across = Vec3([graph.constant(joint.a), zero, zero]);
-    let along = Vec3([zero, zero, along]);
+    let nothing = Vec3([zero; 3]);
+    let across = Vec3([graph.constant(model.joints()[i].a), zero, zero]);
+    let along = Vec3([zero, zero, height + slide(graph, model, i)]);
     if i == group.joints.start {
-        across + along.turn_x(group.alpha)
+        [along, across]
     } else {
-        (across + along).turn_z(sum_of_angles(graph, model.joints(), i..group.joints.end).inverse())
+        let within = sum_of_angles(graph, model.joints(), i..group.joints.end).inverse();
+        [nothing, (across + along).turn_z(within)]
     }
 }
 

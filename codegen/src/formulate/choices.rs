@@ -24,6 +24,8 @@ pub struct Choices {
     pub base: Columns,
     /// The joint at which twists and wrenches meet in ∂τ/∂q and ∂τ/∂q̇.
     pub meeting: usize,
+    /// Whether ∂q̈ takes what velocities do to τ from ∂τ/∂q̇, and not from an inverse dynamics.
+    pub by_slopes: bool,
 }
 
 /// As the table says.
@@ -40,6 +42,7 @@ impl Default for Choices {
             singular: false,
             base: Columns::default(),
             meeting: 0,
+            by_slopes: false,
         }
     }
 }
@@ -53,9 +56,12 @@ pub(crate) enum Chosen {
     Task,
     /// [`Choices::meeting`].
     Meeting,
+    /// [`Choices::by_slopes`].
+    Accelerations,
 }
 
-/// The choices that a method's formulas depend on.
+/// The choices that a method's formulas depend on. One that is not listed may depend on how w_D and J are computed:
+/// that costs a search where only such methods are generated, and nothing else.
 pub(crate) fn depends_on(method: Method) -> &'static [Chosen] {
     match method {
         Method::ForwardKinematics
@@ -87,9 +93,9 @@ pub(crate) fn depends_on(method: Method) -> &'static [Chosen] {
         | Method::DynamicManipulabilityGradient
         | Method::ManipulabilityGradient => &[Chosen::Task],
         Method::InverseDynamicsDerivatives => &[Chosen::Meeting],
-        Method::ForwardDynamicsDerivatives => &[Chosen::Task, Chosen::Meeting],
-        Method::TaskSpaceInertia
-        | Method::DynamicallyConsistentInverse
-        | Method::JacobianAndGradient => &[Chosen::World, Chosen::Task],
+        Method::ForwardDynamicsDerivatives => {
+            &[Chosen::Task, Chosen::Meeting, Chosen::Accelerations]
+        }
+        _ => &[Chosen::World, Chosen::Task],
     }
 }

@@ -18,7 +18,8 @@ pub(crate) fn kinetic_energy<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Expr<'g>
     for group in &chain.groups {
         for i in group.joints.clone() {
             let joint = &chain.joints[i];
-            motion.linear = motion.linear + motion.angular.cross(joint.offset);
+            let [along, rest] = joint.legs;
+            motion.linear = motion.linear + motion.angular.cross(rest);
             let before = |axis: &str| format!("v{axis}_{}_before", i + 1);
             motion.linear.labelled("velocity", before);
             if i == group.joints.start {
@@ -26,6 +27,7 @@ pub(crate) fn kinetic_energy<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Expr<'g>
                 motion.linear = group.of_parent_named(motion.linear, "velocity", name("v"));
                 motion.angular = group.of_parent_named(motion.angular, "omega", name("w"));
             }
+            motion.linear = motion.linear + motion.angular.cross(along);
             let along = chain.axis().scale(qd[i]);
             match joint.kind {
                 JointKind::Revolute => motion.angular = motion.angular + along,

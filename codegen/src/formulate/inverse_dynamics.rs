@@ -186,11 +186,13 @@ pub(super) fn inward<'g>(
             Vec3(f).named("f", &[i]);
             Vec3(n).named("n", &[i]);
             wrenches.push(Wrench { force, moment });
+            let [along, rest] = joint.legs;
+            moment = moment + along.cross(force);
             if i == group.joints.start {
                 force = group.to_parent_named(force, "f", &[i]);
                 moment = group.to_parent_named(moment, "n", &[i]);
             }
-            moment = moment + joint.offset.cross(force);
+            moment = moment + rest.cross(force);
         }
     }
     wrenches.reverse();
@@ -217,7 +219,8 @@ pub(super) fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) 
     for group in &chain.groups {
         for i in group.joints.clone() {
             let joint = &chain.joints[i];
-            motion.acceleration = motion.acceleration + times(&motion.lambda(), joint.offset);
+            let [along, rest] = joint.legs;
+            motion.acceleration = motion.acceleration + times(&motion.lambda(), rest);
             motion
                 .acceleration
                 .labelled("a", |axis| format!("a{axis}_{}_before", i + 1));
@@ -227,6 +230,8 @@ pub(super) fn outward<'g>(chain: &Chain<'g>, qd: &[Expr<'g>], qdd: &[Expr<'g>]) 
                 before.name_turned(group, i);
             }
             motion = motion.moved_by(joint.kind, qd[i], qdd[i]);
+            // Points of the axis move with both links alike; this one's products are asked for anyway.
+            motion.acceleration = motion.acceleration + times(&motion.lambda(), along);
             motion.named(i);
             motions.push(motion);
         }

@@ -19,9 +19,12 @@
 //!
 //! Differentiating the formulas of τ itself takes 1.4 times the operations, of ssrms as of oblique joints.
 
+use std::iter;
+
 use ulna::JointKind;
 
-use super::chain::Chain;
+use super::body::Body;
+use super::chain::{Chain, Group};
 use super::friction::friction_slope;
 use super::inverse_dynamics::{Motion, Wrench, inward, outward, unloaded};
 use super::kinematics::Twist;
@@ -61,6 +64,20 @@ pub(crate) fn inverse_dynamics_derivatives<'g>(
     qdd: &[Expr<'g>],
     meeting: usize,
 ) -> [Square<'g>; 2] {
+    let [by_position, mut by_velocity] = frictionless(chain, qd, qdd, meeting);
+    for (i, slope) in friction_slope(chain, qd).into_iter().enumerate() {
+        by_velocity[i][i] = by_velocity[i][i] + slope;
+    }
+    [by_position, by_velocity]
+}
+
+/// The same without friction.
+pub(super) fn frictionless<'g>(
+    chain: &Chain<'g>,
+    qd: &[Expr<'g>],
+    qdd: &[Expr<'g>],
+    meeting: usize,
+) -> [Square<'g>; 2] {
     let n = chain.joint_count();
     let (zero, half) = (chain.graph.constant(0.0), chain.graph.constant(0.5));
     let motions = outward(chain, qd, qdd);
@@ -73,7 +90,6 @@ pub(crate) fn inverse_dynamics_derivatives<'g>(
     let twists = twists_at_joints(chain);
     let mut by_position = vec![vec![zero; n]; n];
     let mut by_velocity = vec![vec![zero; n]; n];
-    let friction_slopes = friction_slope(chain, qd);
     for (j, i) in (0..n).flat_map(|i| (0..=i).map(move |j| (j, i))) {
         let (drive, response) = (&drives[j], &responses[j][i - j]);
         let axis = Twist::unit(chain, chain.joints[j].kind);
@@ -81,9 +97,6 @@ pub(crate) fn inverse_dynamics_derivatives<'g>(
         let (momentum, couple) = (&response.momentum, response.couple);
         by_position[i][j] = power(&drive.acceleration, momentum) + rate.angular.dot(couple);
         by_velocity[i][j] = power(&drive.twice_rate, momentum) + axis.angular.dot(couple);
-        if j == i {
-            by_velocity[i][i] = by_velocity[i][i] + friction_slopes[i];
-        }
         if j < i {
             let k = meeting.clamp(j, i);
             let twist = twists[k].get(j).unwrap_or(&axis);
@@ -134,57 +147,82 @@ fn responses<'g>(
     let stations = stations(chain);
     let wrenches = inward(chain, motions, unloaded(chain));
     let mut all = Vec::new();
-    let mut beyond: Option<Coriolis<'g>> = None;
-    let mut responses: Vec<Response<'g>> = Vec::new();
+    let mut beyond: Option<Beyond<'g>> = None;
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
-            let joint = &chain.joints[i];
+            let (joint, station) = (&chain.joints[i], &stations[i]);
+            let kind = joint.kind;
             let [xx, yy, zz, ..] = joint.body.inertia.0;
             let own = joint.body.turn_z(joint.group_from_own);
             let own = Coriolis::of_body(&own, xx + yy + zz, motions[i].velocity);
             own.labelled(i, "_own");
-            let mut coriolis = beyond.map_or(own, |beyond| own.join(beyond));
+            let (coriolis, passed) = match beyond {
+                Some(beyond) => (own.join(beyond.coriolis), beyond.responses),
+                None => (own, Vec::new()),
+            };
             coriolis.labelled(i, "");
-            let kind = joint.kind;
-            let response = Response::new(
-                chain,
-                kind,
-                &stations[i],
-                &coriolis,
-                &wrenches[i],
-                &drives[i],
-            );
-            responses.insert(0, response);
-            (i..).zip(&responses).for_each(|(j, x)| x.named(i, j));
-            all.push(responses.clone());
-            if i == 0 {
-                break;
-            }
+            let response = Response::new(chain, kind, station, &coriolis, &wrenches[i], &drives[i]);
+            let mut here = Beyond {
+                body: station.composite,
+                coriolis,
+                responses: iter::once(response).chain(passed).collect(),
+            };
+            (i..).zip(&here.responses).for_each(|(j, x)| x.named(i, j));
+            all.push(here.responses.clone());
             // To the joint before.
-            let mut body = stations[i].composite;
+            let [along, rest] = joint.legs;
             let mut slide = match kind {
                 JointKind::Revolute => chain.zero(),
                 JointKind::Prismatic => chain.axis().scale(qd[i]),
             };
             if i == group.joints.start {
-                coriolis = coriolis.to_parent(group);
-                body = body.turn_z(group.turn).turn_x(group.alpha);
-                slide = group.to_parent(slide);
-                for response in &mut responses {
-                    *response = response.map(|v| group.to_parent(v));
-                }
+                here = here.shift(along, motions[i].velocity.cross(along) + slide);
+                here = here.in_parent(group);
+                slide = chain.zero();
             }
-            let velocity = motions[i - 1].velocity.cross(joint.offset) + slide;
-            let twice_velocity = velocity.scale(chain.graph.constant(2.0));
-            twice_velocity.labelled("v2", |axis| format!("v{axis}2_{}", i + 1));
-            beyond = Some(coriolis.shift(&body, joint.offset, twice_velocity));
-            for response in &mut responses {
-                *response = response.shift(joint.offset, twice_velocity);
+            if i > 0 {
+                here = here.shift(rest, motions[i - 1].velocity.cross(rest) + slide);
             }
+            beyond = Some(here);
         }
     }
     all.reverse();
     all
+}
+
+/// What is known at a joint of all links beyond it: about its origin, in its group's axes, seen from its own inertial frame.
+struct Beyond<'g> {
+    /// They as one body.
+    body: Body<'g>,
+    coriolis: Coriolis<'g>,
+    responses: Vec<Response<'g>>,
+}
+
+impl<'g> Beyond<'g> {
+    /// In the axes of the group before.
+    fn in_parent(self, group: &Group<'g>) -> Self {
+        let responses = self.responses.into_iter();
+        Self {
+            body: self.body.turn_z(group.turn).turn_x(group.alpha),
+            coriolis: self.coriolis.to_parent(group),
+            responses: responses
+                .map(|response| response.map(|v| group.to_parent(v)))
+                .collect(),
+        }
+    }
+
+    /// About an origin from which its own lies at `r` and moves away with `velocity`.
+    fn shift(self, r: Vec3<'g>, velocity: Vec3<'g>) -> Self {
+        let twice_velocity = velocity + velocity;
+        let responses = self.responses.into_iter();
+        Self {
+            body: self.body.shift(r),
+            coriolis: self.coriolis.shift(&self.body, r, twice_velocity),
+            responses: responses
+                .map(|response| response.shift(r, twice_velocity))
+                .collect(),
+        }
+    }
 }
 
 impl<'g> Response<'g> {
@@ -240,15 +278,11 @@ impl<'g> Response<'g> {
 
     /// About an origin from which its own lies at `r` and moves away with half of `twice_v`.
     fn shift(self, r: Vec3<'g>, twice_v: Vec3<'g>) -> Self {
-        let shift = |wrench: Momentum<'g>| Momentum {
-            linear: wrench.linear,
-            angular: wrench.angular + r.cross(wrench.linear),
-        };
         Self {
-            momentum: shift(self.momentum),
+            momentum: self.momentum.shift(r),
             couple: self.couple + twice_v.cross(self.momentum.linear),
-            by_position: shift(self.by_position),
-            by_velocity: shift(self.by_velocity),
+            by_position: self.by_position.shift(r),
+            by_velocity: self.by_velocity.shift(r),
         }
     }
 }

@@ -131,8 +131,9 @@ const LEGEND: &[(&str, &str, &str)] = &[
     ),
     (
         "turned",
-        "mcx_from_i_z ..., ixx_from_i_zx ...",
-        "those turned into the axes of the link before",
+        "mcx_from_i_z ..., mcx_from_i_zx ...",
+        "those about the point of joint i's axis that is nearest to the axis before, turned about z by the joint's angle, and then about x \
+         into the axes of the link before",
     ),
     (
         "p",

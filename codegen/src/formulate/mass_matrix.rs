@@ -19,6 +19,14 @@ pub(crate) struct Momentum<'g> {
 }
 
 impl<'g> Momentum<'g> {
+    /// About an origin from which its own lies at `r`.
+    pub(super) fn shift(self, r: Vec3<'g>) -> Self {
+        Self {
+            linear: self.linear,
+            angular: self.angular + r.cross(self.linear),
+        }
+    }
+
     /// What of it a joint along z feels.
     fn along(&self, kind: JointKind) -> Expr<'g> {
         match kind {
@@ -56,7 +64,11 @@ pub(crate) fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
                 composite,
                 momenta: momenta.clone(),
             });
-            let mut turned = composite;
+            let [along, rest] = joint.legs;
+            let mut turned = composite.shift(along);
+            for momentum in &mut momenta {
+                *momentum = momentum.shift(along);
+            }
             if i == group.joints.start {
                 turned = turned
                     .turn_z(group.turn)
@@ -69,9 +81,9 @@ pub(crate) fn stations<'g>(chain: &Chain<'g>) -> Vec<Station<'g>> {
                 }
             }
             for momentum in &mut momenta {
-                momentum.angular = momentum.angular + joint.offset.cross(momentum.linear);
+                *momentum = momentum.shift(rest);
             }
-            beyond = Some((turned.shift(joint.offset), momenta));
+            beyond = Some((turned.shift(rest), momenta));
         }
     }
     stations.reverse();

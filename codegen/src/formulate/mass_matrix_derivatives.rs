@@ -61,7 +61,8 @@ pub(super) fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
         for i in group.joints.clone() {
             let joint = &chain.joints[i];
             for (k, twist) in twists.iter_mut().enumerate() {
-                twist.linear = twist.linear + twist.angular.cross(joint.offset);
+                let [along, rest] = joint.legs;
+                twist.linear = twist.linear + twist.angular.cross(rest);
                 if i == group.joints.start {
                     let place = |what: &'static str| {
                         move |axis: &str| format!("{what}{axis}_{}_at_{}", k + 1, i + 1)
@@ -72,6 +73,7 @@ pub(super) fn twists_at_joints<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
                     twist.linear = group.of_parent_named(twist.linear, "twist", place("v"));
                     twist.angular = group.of_parent_named(twist.angular, "twist", place("w"));
                 }
+                twist.linear = twist.linear + twist.angular.cross(along);
             }
             name_twists(&twists, i);
             all.push(twists.clone());

@@ -25,6 +25,7 @@ pub(crate) mod manipulability;
 pub(crate) mod mass_matrix;
 pub(crate) mod mass_matrix_derivatives;
 mod matrix;
+mod origins;
 mod outputs;
 pub(crate) mod rates;
 pub(crate) mod regressor;
