@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use super::latency::{Summand, fused};
 use super::literal::literal;
 use super::names::{Names, angle_names};
 use crate::graph::Input;
@@ -56,6 +57,8 @@ pub(super) struct Writer<'p> {
     program: &'p Program,
     /// The name of each step that has one.
     names: Vec<Option<Ident>>,
+    /// Which summand of each step is fused with it.
+    fused: Vec<Option<Summand>>,
     /// The names of steps that are results and nothing else.
     results: HashMap<usize, Ident>,
     angle_names: Vec<String>,
@@ -83,6 +86,7 @@ impl<'p> Writer<'p> {
         }
         Self {
             program,
+            fused: fused(program, &inline),
             names,
             results,
             angle_names,
@@ -91,9 +95,9 @@ impl<'p> Writer<'p> {
 
     /// Every named value and its expression, in order.
     pub(super) fn named(&self) -> Vec<(Ident, TokenStream)> {
-        let steps = self.names.iter().zip(&self.program.steps);
-        steps
-            .filter_map(|(name, step)| Some((name.clone()?, self.step(step).tokens)))
+        let names = self.names.iter().enumerate();
+        names
+            .filter_map(|(step, name)| Some((name.clone()?, self.step(step).tokens)))
             .collect()
     }
 
@@ -212,7 +216,7 @@ impl<'p> Writer<'p> {
             Operand::Input(input) => Code::atom(self.input(input)),
             Operand::Step(index) => match &self.names[index] {
                 Some(name) => Code::atom(quote!(#name)),
-                None => self.step(&self.program.steps[index]),
+                None => self.step(index),
             },
         }
     }
@@ -247,21 +251,20 @@ impl<'p> Writer<'p> {
         }
     }
 
-    fn step(&self, step: &Step) -> Code {
-        let fused = match step.op {
-            Op::Add => {
-                let (first, second) = (self.product(step.a), self.product(step.b));
-                let first = first.map(|factors| self.fused(factors, "mul_add", step.b));
-                first.or_else(|| second.map(|factors| self.fused(factors, "mul_add", step.a)))
-            }
-            Op::Sub => {
-                let (first, second) = (self.product(step.a), self.product(step.b));
-                let second = second.map(|factors| self.fused(factors, "neg_mul_add", step.a));
-                second.or_else(|| first.map(|factors| self.fused(factors, "mul_sub", step.b)))
-            }
-            _ => None,
+    fn step(&self, index: usize) -> Code {
+        let step = &self.program.steps[index];
+        let (product, method, other) = match (self.fused[index], step.op) {
+            (None, _) => return self.plain(step),
+            (Some(Summand::First), Op::Add) => (step.a, "mul_add", step.b),
+            (Some(Summand::Second), Op::Add) => (step.b, "mul_add", step.a),
+            (Some(Summand::First), _) => (step.a, "mul_sub", step.b),
+            (Some(Summand::Second), _) => (step.b, "neg_mul_add", step.a),
         };
-        fused.unwrap_or_else(|| self.plain(step))
+        let Operand::Step(product) = product else {
+            return self.plain(step);
+        };
+        let Step { a, b, .. } = self.program.steps[product];
+        self.multiply_add((a, b), method, other)
     }
 
     fn plain(&self, step: &Step) -> Code {
@@ -281,18 +284,7 @@ impl<'p> Writer<'p> {
         }
     }
 
-    /// The factors of an operand that is a product needed nowhere else.
-    fn product(&self, operand: Operand) -> Option<(Operand, Operand)> {
-        match operand {
-            Operand::Step(index) if self.names[index].is_none() => {
-                let Step { op, a, b } = self.program.steps[index];
-                (op == Op::Mul).then_some((a, b))
-            }
-            _ => None,
-        }
-    }
-
-    fn fused(&self, (a, b): (Operand, Operand), method: &str, other: Operand) -> Code {
+    fn multiply_add(&self, (a, b): (Operand, Operand), method: &str, other: Operand) -> Code {
         // A number reads better as the argument.
         let (a, b) = match a {
             Operand::Constant(_) => (b, a),

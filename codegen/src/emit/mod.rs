@@ -5,6 +5,7 @@ mod chain;
 mod documentation;
 mod expression;
 mod kernel;
+mod latency;
 mod layout;
 mod literal;
 mod names;
