@@ -151,10 +151,8 @@ impl ::ulna::Unrolled<2> for Planar2r {
         let ay_1 = c12 * R::of(9.81);
         let alz_2 = qdd[0] + qdd[1];
         let wz_2 = qd[0] + qd[1];
-        let nz_own_2 = alz_2.mul_add(
-            R::of(0.3334895833333333),
-            R::of(0.5) * (ay_1 + c2.mul_add(qdd[0], s2 * (qd[0] * qd[0]))),
-        );
+        let nz_own_2 = (ay_1 + c2.mul_add(qdd[0], s2 * (qd[0] * qd[0])))
+            .mul_add(R::of(0.5), R::of(0.3334895833333333) * alz_2);
         let nz_1_z_term1 = s2.neg_mul_add(R::of(0.5) * (wz_2 * wz_2), c2 * (R::of(0.5) * alz_2));
         let nz_own_1_term1 = ay_1.mul_add(R::of(1.5) * c2, s12 * R::of(9.81) * (R::of(1.5) * s2));
         let nz_1_z = nz_own_2 + nz_1_z_term1
@@ -202,15 +200,15 @@ impl ::ulna::Unrolled<2> for Planar2r {
         let ([s12, s2], [c12, c2]) = R::sin_cos_all([q[0] + q[1], q[1]]);
         let rx_1 = R::of(1.0) + c2;
         let rx_1_z = c12.mul_add(rx_1, s12 * s2);
-        let ry_1_z = c12.neg_mul_add(s2, s12 * rx_1);
+        let ry_1_z = s12.mul_sub(rx_1, c12 * s2);
         let m_1_2 = c2.mul_add(R::of(0.5), R::of(0.3334895833333333));
         let u_1_2 = m_1_2 * R::of(2.9985944088708423);
         let d_inv_1 = R::of(1.0) / m_1_2.neg_mul_add(u_1_2, R::of(1.6669791666666667) + c2);
         let h_1_1 = d_inv_1 * s12.mul_sub(u_1_2, ry_1_z);
-        let h_1_2_neg = s12.mul_add(R::of(2.9985944088708423), u_1_2 * h_1_1);
+        let h_1_2_neg = u_1_2.mul_add(h_1_1, s12 * R::of(2.9985944088708423));
         let h_2_1 = d_inv_1 * c12.neg_mul_add(u_1_2, rx_1_z);
         let h_2_2 = u_1_2.neg_mul_add(h_2_1, c12 * R::of(2.9985944088708423));
-        let ee_1 = h_1_1.mul_add(h_1_1, h_1_2_neg * h_1_2_neg);
+        let ee_1 = h_1_2_neg.mul_add(h_1_2_neg, h_1_1 * h_1_1);
         let ee_inv_1 = R::of(1.0) / ee_1;
         let mu_2_1_p1 = h_1_2_neg.neg_mul_add(h_2_2, h_1_1 * h_2_1) * ee_inv_1;
         let e_2_1_p1_1 = h_1_1.neg_mul_add(mu_2_1_p1, h_2_1);
@@ -224,19 +222,19 @@ impl ::ulna::Unrolled<2> for Planar2r {
         let ee_inv_2 = R::of(1.0) / ee_2;
         let ed_2_1 = e_2_1 * ee_inv_2;
         let ed_2_2 = e_2_2 * ee_inv_2;
-        let ed_1_2_neg = h_1_2_neg.mul_add(ee_inv_1, mu_2_1 * ed_2_2);
+        let ed_1_2_neg = mu_2_1.mul_add(ed_2_2, h_1_2_neg * ee_inv_1);
         let w_1_1 = d_inv_1
             * u_1_2.mul_add(ed_1_2_neg, mu_2_1.neg_mul_add(ed_2_1, h_1_1 * ee_inv_1));
-        let w_1_2_neg = ed_1_2_neg.mul_add(R::of(2.9985944088708423), u_1_2 * w_1_1);
+        let w_1_2_neg = u_1_2.mul_add(w_1_1, R::of(2.9985944088708423) * ed_1_2_neg);
         let w_2_1 = d_inv_1 * u_1_2.neg_mul_add(ed_2_2, ed_2_1);
         let w_2_2 = u_1_2.neg_mul_add(w_2_1, R::of(2.9985944088708423) * ed_2_2);
         let m_1_2_bar_neg = h_1_1.neg_mul_add(w_1_2_neg, h_2_1 * w_2_2)
             + h_1_2_neg.neg_mul_add(w_1_1, h_2_2 * w_2_1);
         let t1 = s12.neg_mul_add(w_1_1, c12 * w_2_1)
             - m_1_2_bar_neg.mul_add(R::of(0.5), h_1_1.mul_add(w_1_1, h_2_1 * w_2_1));
-        let angle_1_2_bar = s12.neg_mul_add(
-            rx_1.mul_add(w_2_1, s2.mul_add(w_1_1, w_2_2)),
-            c12 * s2.mul_add(w_2_1, rx_1.neg_mul_add(w_1_1, w_1_2_neg)),
+        let angle_1_2_bar = c12.mul_sub(
+            s2.mul_add(w_2_1, rx_1.neg_mul_add(w_1_1, w_1_2_neg)),
+            s12 * rx_1.mul_add(w_2_1, s2.mul_add(w_1_1, w_2_2)),
         );
         let angle_2_bar = s2.neg_mul_add(t1, c2 * c12.mul_add(w_1_1, s12 * w_2_1));
         let jee_1 = ry_1_z.mul_add(ry_1_z, s12 * s12);
