@@ -99,6 +99,11 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
     } else {
         (unit(&name), quote!(), quote!())
     };
+    let mut optional = vec![
+        format_ident!("JOINT_NAMES"),
+        format_ident!("BASE_PARAMETERS"),
+    ];
+    optional.extend(model.has_payload().then(|| format_ident!("set_payload")));
     let arms = if model.has_payload() {
         payload::examples(&name).to_vec()
     } else {
@@ -130,6 +135,11 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
         }
 
         ::ulna::implement_arm!(#name, #n);
+
+        // A program that includes this file need not use them.
+        const _: () = {
+            #(let _ = #name::#optional;)*
+        };
 
         #[cfg(test)]
         #[rustfmt::skip]

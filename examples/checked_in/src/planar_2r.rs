@@ -248,6 +248,10 @@ impl ::ulna::Unrolled<2> for Planar2r {
     }
 }
 ::ulna::implement_arm!(Planar2r, 2);
+const _: () = {
+    let _ = Planar2r::JOINT_NAMES;
+    let _ = Planar2r::BASE_PARAMETERS;
+};
 #[cfg(test)]
 #[rustfmt::skip]
 mod planar_2r_proof {
