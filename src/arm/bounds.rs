@@ -1,5 +1,6 @@
 //! How large what an arm's matrices are made of can be: the sizes that rounding is relative to.
 
+use super::coordinates::PRISMATIC_LIMIT;
 use crate::{Joint, JointKind};
 
 /// The least share that a link must have in what its joint carries (see [`own_inertia`] and [`carried_inertia`]).
@@ -7,6 +8,35 @@ use crate::{Joint, JointKind};
 /// M's entries are rounded relative to what a joint carries. The pivots of M, which are never smaller than a link's own share,
 /// stay positive while that share is well above the rounding: N + 20 units or so of 1.1e-16.
 pub const LEAST_SHARE: f64 = 1e-13;
+
+/// What a link has of what its joint carries at its farthest, kg·m² (kg for a prismatic joint).
+#[derive(Clone, Copy, Debug)]
+pub struct Share {
+    /// [`own_inertia`].
+    pub own: f64,
+    /// [`carried_inertia`].
+    pub carried: f64,
+}
+
+impl Share {
+    /// That of link `index`, counted from 0.
+    pub fn of(joints: &[Joint], index: usize) -> Self {
+        Self {
+            own: own_inertia(&joints[index]),
+            carried: carried_inertia(joints, index, |_| PRISMATIC_LIMIT),
+        }
+    }
+
+    /// The least that it must have.
+    pub fn least(self) -> f64 {
+        LEAST_SHARE * self.carried
+    }
+
+    /// Whether it has that.
+    pub fn is_enough(self) -> bool {
+        self.own >= self.least()
+    }
+}
 
 /// What a link alone adds to its joint's entry of M, with the rotor that drives it: its inertia about the joint's axis, kg·m²
 /// (its mass, kg, for a prismatic joint).

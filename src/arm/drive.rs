@@ -18,6 +18,23 @@ impl Limits {
         upper: f64::INFINITY,
         velocity: f64::INFINITY,
     };
+
+    /// What counts as rounding beyond a limit, rad (m).
+    const ROUNDING: f64 = 1e-9;
+
+    /// How far the coordinate `q` is beyond, rad (m): 0 within the limits, and up to rounding. One that is no number is beyond all.
+    pub fn beyond(&self, q: f64) -> f64 {
+        let beyond = if self.lower <= q && q <= self.upper {
+            0.0
+        } else if q > self.upper {
+            q - self.upper
+        } else if q < self.lower {
+            self.lower - q
+        } else {
+            f64::INFINITY
+        };
+        if beyond > Self::ROUNDING { beyond } else { 0.0 }
+    }
 }
 
 /// A joint's motor behind its gears, as far as its rotor resists acceleration.

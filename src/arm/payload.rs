@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::bounds::{LEAST_SHARE, carried_inertia, own_inertia};
+use super::bounds::Share;
 use super::description::{Link, Placement};
 use super::parameters::Parameter;
 use crate::{Real, SerialChain};
@@ -11,11 +11,7 @@ use crate::{Real, SerialChain};
 ///
 /// An arm whose table says `[payload] runtime = true` takes one between two calls; [`SerialChain::carrying`] is its textbook twin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Payload {
-    mass: f64,
-    com: [f64; 3],
-    inertia: [[f64; 3]; 3],
-}
+pub struct Payload(Link);
 
 /// Why a payload is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -48,11 +44,11 @@ pub enum PayloadError {
 
 impl Payload {
     /// No body at all.
-    pub const NONE: Self = Self {
+    pub const NONE: Self = Self(Link {
         mass: 0.0,
         com: [0.0; 3],
         inertia: [[0.0; 3]; 3],
-    };
+    });
 
     /// The heaviest, kg.
     pub const MAX_MASS: f64 = 1e6;
@@ -98,7 +94,7 @@ impl Payload {
         if !is_rigid || (mass == 0.0 && largest > 0.0) {
             return Err(PayloadError::Inertia([least, middle, largest]));
         }
-        Ok(Self { mass, com, inertia })
+        Ok(Self(Link { mass, com, inertia }))
     }
 
     /// A body for proofs, without any symmetry, as heavy as the chain's last link.
@@ -109,57 +105,44 @@ impl Payload {
             [0.005, 0.02, 0.003],
             [-0.002, 0.003, 0.015],
         ];
-        Self {
+        Self(Link {
             mass,
             com: [0.1, -0.2, 0.3],
             inertia: per_mass.map(|row| row.map(|x| mass * x)),
-        }
+        })
     }
 
     /// Its mass, kg.
     pub const fn mass(&self) -> f64 {
-        self.mass
+        self.0.mass
     }
 
     /// Its centroid in the tool's frame, m.
     pub const fn com(&self) -> [f64; 3] {
-        self.com
+        self.0.com
     }
 
     /// Its inertia about the centroid in the tool's axes, kg·m².
     pub const fn inertia(&self) -> [[f64; 3]; 3] {
-        self.inertia
+        self.0.inertia
     }
 
     /// The ten standard inertial parameters about the origin of the frame in which the tool stands at `tool`,
     /// in the order of [`Parameter::ALL`]: what the regressor of the last link multiplies.
     pub fn parameters(&self, tool: &Placement) -> [f64; Self::PARAMETERS] {
-        let Link { mass, com, inertia } = self.seen_from(tool);
-        let [x, y, z] = com;
-        let moment = com.map(|x| mass * x);
-        [
-            mass,
-            moment[0],
-            moment[1],
-            moment[2],
-            inertia[0][0] + mass * (y * y + z * z),
-            inertia[0][1] - mass * x * y,
-            inertia[0][2] - mass * x * z,
-            inertia[1][1] + mass * (z * z + x * x),
-            inertia[1][2] - mass * y * z,
-            inertia[2][2] + mass * (x * x + y * y),
-        ]
+        self.seen_from(tool).parameters()
     }
 
     /// The same body in the frame in which the tool stands at `tool`.
     fn seen_from(&self, tool: &Placement) -> Link {
         let pose = tool.isometry();
         let rotation = pose.rotation.matrix();
-        let com = rotation * Vector3::from(self.com) + pose.translation.vector;
-        let tensor = Matrix3::from_fn(|i, j| self.inertia[i][j]);
+        let Link { mass, com, inertia } = self.0;
+        let com = rotation * Vector3::from(com) + pose.translation.vector;
+        let tensor = Matrix3::from_fn(|i, j| inertia[i][j]);
         let tensor = rotation * tensor * rotation.transpose();
         Link {
-            mass: self.mass,
+            mass,
             com: com.into(),
             inertia: core::array::from_fn(|i| core::array::from_fn(|j| tensor[(i, j)])),
         }
@@ -181,7 +164,7 @@ impl<const N: usize> SerialChain<N> {
         let Some(last) = chain.joints.last_mut() else {
             return chain;
         };
-        if payload.mass == 0.0 {
+        if payload.mass() == 0.0 {
             return chain;
         }
         let (own, other) = (last.link, payload.seen_from(&self.tool));
@@ -208,14 +191,10 @@ impl<const N: usize> SerialChain<N> {
     /// [`PayloadError::TooHeavy`].
     pub fn admit(&self, payload: &Payload) -> Result<(), PayloadError> {
         let joints = self.carrying(payload).joints;
-        for (index, joint) in joints.iter().enumerate() {
-            let carried = carried_inertia(&joints, index, |_| crate::arm::PRISMATIC_LIMIT);
-            let counts = own_inertia(joint) >= LEAST_SHARE * carried;
-            if !counts {
-                return Err(PayloadError::TooHeavy { joint: index + 1 });
-            }
+        match (0..N).find(|index| !Share::of(&joints, *index).is_enough()) {
+            Some(index) => Err(PayloadError::TooHeavy { joint: index + 1 }),
+            None => Ok(()),
         }
-        Ok(())
     }
 }
 
@@ -228,12 +207,6 @@ pub struct Carried {
 }
 
 impl Carried {
-    /// Nothing.
-    pub const NONE: Self = Self {
-        payload: Payload::NONE,
-        parameters: [0.0; Payload::PARAMETERS],
-    };
-
     /// `payload` on the arm of `chain`.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use core::slice;
 
-use bytemuck::{cast_slice, cast_slice_mut};
+use bytemuck::{Pod, cast_slice, cast_slice_mut};
 use nalgebra::{IsometryMatrix3, SMatrix};
 
 /// A result of a method of [`Arm`](crate::Arm), in the parts that its kernel returns, each of numbers in a row:
@@ -75,34 +75,12 @@ impl<const R: usize, const C: usize> Quantity for SMatrix<f64, R, C> {
     }
 }
 
-impl<const R: usize, const C: usize, const K: usize> Quantity for [SMatrix<f64, R, C>; K] {
+/// Matrices or poses, one after another: nalgebra keeps a pose as its rotation and its translation in a row.
+impl<T: Quantity + Pod, const K: usize> Quantity for [T; K] {
     const PARTS: usize = 1;
 
     fn zero() -> Self {
-        [SMatrix::zeros(); K]
-    }
-
-    #[inline(always)]
-    fn zero_from(self, first: usize) -> Self {
-        if first == 0 { Self::zero() } else { self }
-    }
-
-    #[inline(always)]
-    fn part(&self, _: usize) -> &[f64] {
-        cast_slice(self)
-    }
-
-    #[inline(always)]
-    fn part_mut(&mut self, _: usize) -> &mut [f64] {
-        cast_slice_mut(self)
-    }
-}
-
-impl<const K: usize> Quantity for [IsometryMatrix3<f64>; K] {
-    const PARTS: usize = 1;
-
-    fn zero() -> Self {
-        [IsometryMatrix3::zero(); K]
+        [T::zero(); K]
     }
 
     #[inline(always)]

@@ -188,11 +188,20 @@ pub fn impact_torque_of<const N: usize>(
     locked: LockedJoints<N>,
     delta_wrench: &Vector6<f64>,
 ) -> SVector<f64, N> {
+    impact_of_motion(arm, state, locked) + arm.geometric_jacobian(&state.q).tr_mul(delta_wrench)
+}
+
+/// The same without a change of the tool's wrench.
+#[inline]
+pub(crate) fn impact_of_motion<const N: usize>(
+    arm: &(impl Arm<N> + ?Sized),
+    state: &JointState<N>,
+    locked: LockedJoints<N>,
+) -> SVector<f64, N> {
     let after = locked.hold(state);
     let friction = arm.friction_torque(&state.qd);
     let mut impact = arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
-        - arm.inverse_dynamics(&after.q, &after.qd, &after.qdd)
-        + arm.geometric_jacobian(&state.q).tr_mul(delta_wrench);
+        - arm.inverse_dynamics(&after.q, &after.qd, &after.qdd);
     for joint in locked.iter() {
         impact[joint] -= friction[joint];
     }

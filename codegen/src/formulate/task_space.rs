@@ -12,12 +12,11 @@
 //! orthogonal too: with one, J̄ of oblique_6 has 1e-9 where 1e-11 can be had, at 1e-4 from a singular pose.
 
 use super::chain::Chain;
-use super::factorization::{Factors, factor};
+use super::factorization::Factors;
 use super::manipulability::{OF_TASK, Orthogonal, orthogonalise_in, volume_squared};
-use super::mass_matrix::mass_matrix;
 use super::outputs::named_rows;
 use super::task::{number, task_rows_in_world};
-use super::{Choices, Outputs, articulated};
+use super::{Choices, Outputs, factors};
 use crate::graph::Expr;
 use crate::schedule::{Output, Size};
 
@@ -33,11 +32,7 @@ struct Foundations<'g> {
 fn foundations<'g>(chain: &Chain<'g>, choices: Choices, passes: usize) -> Foundations<'g> {
     let (places, rows): (Vec<usize>, Vec<_>) =
         task_rows_in_world(chain, choices).into_iter().unzip();
-    let factors = if choices.articulated {
-        articulated::factors(chain)
-    } else {
-        factor(&mass_matrix(chain))
-    };
+    let factors = factors(chain, choices);
     let halfway: Vec<_> = rows.iter().map(|row| factors.solve_upper(row)).collect();
     let halfway = named_rows(halfway, "ty");
     let basis = orthogonalise_in(&halfway, Some(&factors.inverse_pivots), passes, &OF_TASK);

@@ -27,7 +27,7 @@ use nalgebra::{SMatrix, SVector, Vector6};
 
 use super::factor::Factor;
 use super::{FreeTorque, TaskPose};
-use crate::control::failure::LockedJoints;
+use crate::control::failure::{LockedJoints, impact_of_motion};
 use crate::control::null_space::{NEAR_SINGULAR, SINGULAR};
 use crate::control::trajectory::JointState;
 use crate::{Arm, Real};
@@ -120,7 +120,10 @@ impl<const N: usize> OnLine<N> {
             // Δτ is before minus after, and the step after minus before.
             let step = match &impacts {
                 Some(impacts) => -impacts.column(joint),
-                None => -impact(arm, &state, joint),
+                None => {
+                    let next = LockedJoints::new(&[joint]).unwrap_or(LockedJoints::NONE);
+                    -impact_of_motion(arm, &state, next)
+                }
             };
             risks[joint] = Risk::new(joint, self.weights[joint], &locked.without(&step), pose);
         }
@@ -247,20 +250,6 @@ impl<const N: usize> Risk<N> {
             step_squared: step.norm_squared(),
         }
     }
-}
-
-/// Δτ of a lock of `joint`: its column of [`Arm::lock_impacts`].
-#[inline]
-fn impact<const N: usize>(
-    arm: &(impl Arm<N> + ?Sized),
-    state: &JointState<N>,
-    joint: usize,
-) -> SVector<f64, N> {
-    let mut held = *state;
-    held.qd[joint] = 0.0;
-    held.qdd[joint] = 0.0;
-    arm.inverse_dynamics(&state.q, &state.qd, &state.qdd)
-        - arm.inverse_dynamics(&held.q, &held.qd, &held.qdd)
 }
 
 /// [`Weighting::Relative`].

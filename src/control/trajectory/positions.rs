@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::TrajectoryError;
-use crate::SerialChain;
+use crate::{Limits, SerialChain};
 
 /// Where the joints can be; infinite where there is no limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,9 +13,6 @@ pub struct PositionLimits<const N: usize> {
     /// Largest q, rad (m).
     pub upper: SVector<f64, N>,
 }
-
-/// What counts as rounding beyond a limit, rad (m).
-const ROUNDING: f64 = 1e-9;
 
 impl<const N: usize> PositionLimits<N> {
     /// Those of the arm's table.
@@ -39,20 +36,16 @@ impl<const N: usize> PositionLimits<N> {
     /// # Errors
     /// The position, and the limits that it is beyond.
     pub fn admit(&self, q: &SVector<f64, N>, time: f64) -> Result<(), TrajectoryError> {
-        let mut furthest = ROUNDING;
+        let mut furthest = 0.0;
         let mut found = Ok(());
         for joint in 0..N {
             let (value, lower, upper) = (q[joint], self.lower[joint], self.upper[joint]);
-            // A limit or a position that is no number is beyond all.
-            let beyond = if lower <= value && value <= upper {
-                0.0
-            } else if value > upper {
-                value - upper
-            } else if value < lower {
-                lower - value
-            } else {
-                f64::INFINITY
+            let limits = Limits {
+                lower,
+                upper,
+                ..Limits::NONE
             };
+            let beyond = limits.beyond(value);
             if beyond > furthest {
                 furthest = beyond;
                 found = Err(TrajectoryError::Position {

@@ -3,8 +3,7 @@
 use crate::diagnostics::Diagnostic;
 use crate::table::JointTable;
 use crate::toml_reader::Located;
-use ulna::arm::PRISMATIC_LIMIT;
-use ulna::internal::bounds::{LEAST_SHARE, carried_inertia, own_inertia};
+use ulna::internal::bounds::Share;
 use ulna::{Joint, JointKind};
 
 /// Where a link's mass and inertia are written.
@@ -24,7 +23,7 @@ pub(super) fn weight_of(row: &JointTable) -> Weight {
     }
 }
 
-/// An error for each link that has less than [`LEAST_SHARE`] of what its joint carries at its greatest distance:
+/// An error for each link that has less than its [least share](Share::least) of what its joint carries at its greatest distance:
 /// in M it would drown in rounding, and M would not be positive definite any more.
 pub(super) fn light_links(joints: &[Joint], weights: Vec<Weight>) -> Vec<Diagnostic> {
     let mut errors = Vec::new();
@@ -32,12 +31,11 @@ pub(super) fn light_links(joints: &[Joint], weights: Vec<Weight>) -> Vec<Diagnos
         let Some(joint) = joints.get(index) else {
             continue;
         };
-        let own = own_inertia(joint);
-        let carried = carried_inertia(joints, index, |_| PRISMATIC_LIMIT);
-        let least = LEAST_SHARE * carried;
-        if own >= least {
+        let share = Share::of(joints, index);
+        if share.is_enough() {
             continue;
         }
+        let (Share { own, carried }, least) = (share, share.least());
         let (place, unit, what) = match joint.kind {
             JointKind::Revolute => (
                 weight.inertia,

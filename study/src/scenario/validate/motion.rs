@@ -12,9 +12,6 @@ use ulna::{Joint, JointKind, Limits, Profile, ProfileShape};
 use ulna_table::AngleUnit;
 use ulna_table::toml_reader::{Bound, Located};
 
-/// What counts as rounding beyond a limit, rad (m).
-const ROUNDING: f64 = 1e-9;
-
 impl MotionTable {
     /// How many joints the motion is for, if its lists agree about it.
     pub(super) fn joint_count(&self) -> Option<usize> {
@@ -142,7 +139,7 @@ impl Reader<'_> {
         let mut sound = Some(());
         for (index, (joint, q)) in arm.joints().iter().zip(positions).enumerate() {
             let Limits { lower, upper, .. } = joint.limits;
-            if lower - ROUNDING <= *q && *q <= upper + ROUNDING {
+            if joint.limits.beyond(*q) == 0.0 {
                 continue;
             }
             let (unit, factor) = match (joint.kind, self.unit) {
