@@ -7,9 +7,8 @@ use crate::MethodProgram;
 use crate::accuracy::rounded_up;
 use crate::cost::Counts;
 use crate::formulate::legend::{meaning, place};
-use crate::graph::Input;
 use crate::label::Label;
-use crate::schedule::{Operand, Program};
+use crate::schedule::Program;
 
 /// Above the legend.
 const NAMES: &str = " Names, everything counted from 1:";
@@ -17,9 +16,11 @@ const NAMES: &str = " Names, everything counted from 1:";
 /// What an arm carries.
 const PAYLOAD: &str = " - `payload`: of what the arm carries, about the origin of the last link's frame, m, mx, my, mz, Ixx, Ixy, Ixz, Iyy, Iyz, Izz";
 
-/// The lines. `names` are those of its values, `labels` those of the values that the formulas gave a name.
+/// The lines. `names` are those of its values, `labels` those of the values that the formulas gave a name; `payload` tells whether
+/// it reads what the arm carries.
 pub(super) fn lines<'p>(
     compiled: &MethodProgram,
+    payload: bool,
     names: impl Iterator<Item = String>,
     labels: impl Iterator<Item = &'p Label>,
 ) -> Vec<String> {
@@ -55,7 +56,7 @@ pub(super) fn lines<'p>(
         " Rounding error of the worst entry, relative to the largest: {}.",
         rounded_up(compiled.error)
     ));
-    let payload = has_payload(&compiled.program).then(|| PAYLOAD.to_owned());
+    let payload = payload.then(|| PAYLOAD.to_owned());
     let legend = payload.into_iter().chain(angles_line(&compiled.program));
     let legend = legend.chain(families(compiled, labels));
     let mut legend = legend.chain(endings(names)).peekable();
@@ -64,12 +65,6 @@ pub(super) fn lines<'p>(
         lines.extend(legend);
     }
     lines
-}
-
-fn has_payload(program: &Program) -> bool {
-    let is_payload = |operand| matches!(operand, Operand::Input(Input::Payload(_)));
-    let mut steps = program.steps.iter();
-    steps.any(|step| is_payload(step.a) || is_payload(step.b))
 }
 
 /// What sines and cosines are called.

@@ -31,9 +31,8 @@ pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
         let argument = format_ident!("{used}{argument}");
         quote!(#argument: &[R; #length])
     });
-    let payload = writer
-        .uses_argument("payload")
-        .then(|| quote!(let payload = &self.payload.parameters::<R>();));
+    let has_payload = writer.uses_argument("payload");
+    let payload = has_payload.then(|| quote!(let payload = &self.payload.parameters::<R>();));
     let types: Vec<TokenStream> = program
         .outputs
         .iter()
@@ -48,7 +47,7 @@ pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
     let mut named = writer.named();
     let in_parts = parts::is_long(named.len());
     let names = named.iter().map(|(name, _)| name.to_string());
-    let doc = documentation::lines(compiled, names, writer.labels(!in_parts));
+    let doc = documentation::lines(compiled, has_payload, names, writer.labels(!in_parts));
     let (body, value) = if in_parts {
         (parts::parts(&writer, compiled, &named, joints), quote!())
     } else {

@@ -10,10 +10,7 @@ use crate::graph::Expr;
 
 /// The kinetic energy at rates `qd`, of the links and the rotors.
 pub(crate) fn kinetic_energy<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Expr<'g> {
-    let mut motion = Twist {
-        linear: chain.zero(),
-        angular: chain.zero(),
-    };
+    let mut motion = Twist::none(chain);
     let mut energy = chain.graph.constant(0.0);
     for group in &chain.groups {
         for i in group.joints.clone() {

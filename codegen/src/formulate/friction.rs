@@ -34,8 +34,9 @@ pub(crate) fn friction_slope<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Vec<Expr
         let squared = rate.of(friction.smoothing) * rate.of(friction.smoothing);
         let speed_squared = (rate * rate + squared).named("speed2", &[i]);
         let speed = speed_squared.sqrt().named("speed", &[i]);
+        let viscous = rate.of(friction.viscous);
         let coulomb = rate.of(friction.coulomb) * squared / (speed_squared * speed);
-        (rate.of(friction.viscous) + coulomb).named("slope", &[i])
+        (viscous + coulomb).named("slope", &[i])
     })
 }
 

@@ -19,11 +19,24 @@ pub struct Twist<'g> {
 impl<'g> Twist<'g> {
     /// Of a joint at unit speed, at its own origin, in axes whose z is its axis.
     pub fn unit(chain: &Chain<'g>, kind: JointKind) -> Self {
+        Self::about(chain, kind, chain.axis())
+    }
+
+    /// The same in axes where its axis is `axis`.
+    pub(super) fn about(chain: &Chain<'g>, kind: JointKind, axis: Vec3<'g>) -> Self {
         let (linear, angular) = match kind {
-            JointKind::Revolute => (chain.zero(), chain.axis()),
-            JointKind::Prismatic => (chain.axis(), chain.zero()),
+            JointKind::Revolute => (chain.zero(), axis),
+            JointKind::Prismatic => (axis, chain.zero()),
         };
         Self { linear, angular }
+    }
+
+    /// No motion.
+    pub(super) fn none(chain: &Chain<'g>) -> Self {
+        Self {
+            linear: chain.zero(),
+            angular: chain.zero(),
+        }
     }
 
     /// The same to both parts.

@@ -43,12 +43,8 @@ pub(crate) fn link_frames<'g>(chain: &Chain<'g>) -> Vec<LinkFrame<'g>> {
 
 /// Each link's Jacobian at its origin, by columns; all of them, those beyond the link 0.
 pub(crate) fn link_jacobians<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
-    let none = Twist {
-        linear: chain.zero(),
-        angular: chain.zero(),
-    };
     let frames = link_frames(chain);
-    let mut columns = vec![none; chain.joint_count()];
+    let mut columns = vec![Twist::none(chain); chain.joint_count()];
     let mut all = Vec::new();
     for (i, frame) in frames.iter().enumerate() {
         for (j, column) in columns.iter_mut().enumerate().take(i) {
@@ -56,17 +52,7 @@ pub(crate) fn link_jacobians<'g>(chain: &Chain<'g>) -> Vec<Vec<Twist<'g>>> {
                 column.linear = column.linear + moved_by_step(chain, &frames, j, i);
             }
         }
-        let axis = frame.axes[2];
-        columns[i] = match chain.joints[i].kind {
-            JointKind::Revolute => Twist {
-                angular: axis,
-                ..none
-            },
-            JointKind::Prismatic => Twist {
-                linear: axis,
-                ..none
-            },
-        };
+        columns[i] = Twist::about(chain, chain.joints[i].kind, frame.axes[2]);
         all.push(columns.clone());
     }
     all

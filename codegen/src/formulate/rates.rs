@@ -59,13 +59,9 @@ pub(crate) fn jacobian_rate<'g>(
 
 /// J̇ q̇ in world axes.
 pub(crate) fn bias_acceleration<'g>(chain: &Chain<'g>, qd: &[Expr<'g>]) -> Twist<'g> {
-    let zero = chain.zero();
     let mut place = Vec3::constant(chain.graph, chain.tool.translation);
-    let (mut velocity, mut spin) = (zero, zero);
-    let mut acceleration = Twist {
-        linear: zero,
-        angular: zero,
-    };
+    let (mut velocity, mut spin) = (chain.zero(), chain.zero());
+    let mut acceleration = Twist::none(chain);
     for group in chain.groups.iter().rev() {
         for i in group.joints.clone().rev() {
             let joint = &chain.joints[i];
