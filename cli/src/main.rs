@@ -14,6 +14,7 @@ mod cost;
 mod figures;
 mod generate;
 mod help;
+mod import;
 mod joints;
 mod man;
 mod methods;
@@ -53,6 +54,7 @@ enum Command {
     Assess(assess::Arguments),
     Campaign(campaign::Arguments),
     Check(check::Arguments),
+    Import(import::Arguments),
     Generate(generate::Arguments),
     Verify(verify::Arguments),
     Cost(cost::Arguments),
@@ -77,6 +79,7 @@ impl Command {
             Self::Assess(arguments) => assess::run(&arguments, out),
             Self::Campaign(arguments) => campaign::run(&arguments, out),
             Self::Check(arguments) => check::run(&arguments, out),
+            Self::Import(arguments) => import::run(&arguments, out),
             Self::Generate(arguments) => generate::run(&arguments, out),
             Self::Verify(arguments) => verify::run(&arguments, out),
             Self::Cost(arguments) => cost::run(&arguments, out),

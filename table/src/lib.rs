@@ -50,4 +50,6 @@ pub use format::reference;
 #[doc(hidden)]
 pub use format::{ANGLE_UNIT, RATED_TORQUE};
 pub use model::{Description, ImpossibleInertia, Model, TableText, impossible_inertia};
+#[doc(hidden)]
+pub use model::{arm_name, joint_name};
 pub use table::{AngleUnit, Convention};

@@ -6,6 +6,7 @@ mod check;
 mod cost;
 mod generate;
 mod help;
+mod import;
 mod methods;
 mod reproduce;
 mod support;

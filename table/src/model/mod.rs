@@ -19,7 +19,9 @@ mod written;
 
 pub use description::Description;
 pub use inertia::{ImpossibleInertia, impossible_inertia};
+pub use joint_names::joint_name;
 pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
+pub use name::arm_name;
 pub use written::TableText;
 
 use std::path::Path;
