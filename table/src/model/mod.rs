@@ -20,7 +20,7 @@ mod written;
 pub use description::Description;
 pub use inertia::{ImpossibleInertia, impossible_inertia};
 pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
-pub use written::TableText;
+pub use written::{TableText, shortest};
 
 use std::path::Path;
 
