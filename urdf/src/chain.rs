@@ -5,6 +5,7 @@ use ulna_table::toml_reader::closest;
 
 use crate::ends::{Ends, ends};
 use crate::import::Import;
+use crate::note::NoteKind;
 use crate::report::Report;
 use crate::robot::Motion;
 use crate::tree::{Tree, some_of};
@@ -28,7 +29,7 @@ impl Chain {
     /// The chain that `import` asks for, or the only one. `None` if something has been reported.
     pub(crate) fn find(tree: &Tree, import: &Import, report: &mut Report) -> Option<Self> {
         let sink = report.sink();
-        let dropped = dropped(tree, import, sink);
+        let dropped = dropped(tree, import, report);
         let base = match &import.base {
             Some(name) => link(tree, "base", name, sink),
             None => Some(tree.root),
@@ -179,17 +180,21 @@ pub(crate) fn link(tree: &Tree, option: &str, name: &str, sink: &Sink) -> Option
 }
 
 /// Which links are left out: those named, and what hangs on them.
-fn dropped(tree: &Tree, import: &Import, sink: &Sink) -> Option<Vec<bool>> {
+fn dropped(tree: &Tree, import: &Import, report: &mut Report) -> Option<Vec<bool>> {
     let mut dropped = vec![false; tree.robot.links.len()];
     let mut sound = true;
     for name in &import.drop {
-        match link(tree, "drop", name, sink) {
-            Some(link) => tree
-                .subtree(link)
-                .into_iter()
-                .for_each(|link| dropped[link] = true),
-            None => sound = false,
-        }
+        let Some(link) = link(tree, "drop", name, report.sink()) else {
+            sound = false;
+            continue;
+        };
+        let gone = tree.subtree(link);
+        let message = match gone.len() {
+            1 => format!("`{name}` is left out"),
+            count => format!("`{name}` is left out, and what hangs on it: {count} links together"),
+        };
+        report.note_at(&tree.link(link).span, NoteKind::Dropped, message);
+        gone.into_iter().for_each(|link| dropped[link] = true);
     }
     sound.then_some(dropped)
 }

@@ -16,8 +16,8 @@ use crate::merge::{Assembly, Segment};
 use crate::names::{joint_names, robot_name};
 use crate::note::NoteKind;
 use crate::report::Report;
-use crate::robot::Motion;
-use crate::rows::{Moving, Rows, rows};
+use crate::robot::{JointElement, Motion};
+use crate::rows::{Moving, NearlyParallel, Rows, rows, tidy};
 use crate::task::task;
 use crate::tree::Tree;
 
@@ -42,16 +42,16 @@ pub(crate) fn describe(
     let name = name(import, tree, &mut report);
     let Assembly { segments, tool } = assembly?;
     let moving = moving(tree, &segments);
-    let rows = rows(&moving, &tool)
-        .map_err(|errors| too_parallel(tree, chain, &errors, &report))
-        .ok()?;
-    nearly_parallel(tree, chain, &rows, &report);
+    let rows = rows(&moving, &tool);
+    doubts(tree, chain, &rows, &report);
+    let rows = rows.ok()?;
     let (name, drives) = (name?, drives.into_iter().collect::<Option<Vec<_>>>()?);
     let names = joint_names(&elements, &mut report);
-    let task = task(&moving, &tool);
+    let kinds: Vec<JointKind> = elements.iter().map(|joint| kind(joint)).collect();
+    let task = task(&kinds, &moving, &tool);
     say_task(task, &mut report);
     gravity(tree, chain, &mut report);
-    let joints = segments.iter().zip(&moving).zip(&drives).enumerate();
+    let joints = segments.iter().zip(&kinds).zip(&drives).enumerate();
     let description = Description {
         name,
         convention: Convention::Modified,
@@ -61,7 +61,7 @@ pub(crate) fn describe(
         tool: placement(&rows.tool),
         payload: false,
         joints: joints
-            .map(|(i, ((segment, moving), drive))| joint(i, segment, moving.kind, drive, &rows))
+            .map(|(i, ((segment, kind), drive))| joint(i, segment, *kind, drive, &rows))
             .collect(),
         joint_names: names.iter().cloned().map(Some).collect(),
         accept_inertia: segments.iter().map(|segment| segment.accepted).collect(),
@@ -98,20 +98,49 @@ pub(crate) fn describe(
     })
 }
 
+fn kind(joint: &JointElement) -> JointKind {
+    match joint.motion {
+        Motion::Prismatic => JointKind::Prismatic,
+        _ => JointKind::Revolute,
+    }
+}
+
 /// What the joints' rows are made of.
 fn moving(tree: &Tree, segments: &[Segment]) -> Vec<Moving> {
-    let moving = segments.iter().map(|segment| {
-        let element = tree.joint(segment.joint);
-        Moving {
-            kind: match element.motion {
-                Motion::Prismatic => JointKind::Prismatic,
-                _ => JointKind::Revolute,
-            },
-            placement: segment.placement,
-            axis: element.axis.unit,
-        }
+    let moving = segments.iter().map(|segment| Moving {
+        placement: segment.placement,
+        axis: tree.joint(segment.joint).axis.unit,
     });
     moving.collect()
+}
+
+/// Says which axes are almost parallel, and so that rows say it badly: they are taken as parallel, or refused.
+fn doubts(tree: &Tree, chain: &Chain, rows: &Result<Rows, Vec<NearlyParallel>>, report: &Report) {
+    let (doubts, refused) = match rows {
+        Ok(rows) => (&rows.nearly_parallel, false),
+        Err(doubts) => (doubts, true),
+    };
+    for doubt in doubts {
+        let [before, joint] = [doubt.joint - 1, doubt.joint].map(|i| tree.joint(chain.joints[i]));
+        let span = joint.origin.span.clone();
+        let almost = format!(
+            "the axes of joints `{}` and `{}` are almost parallel: {:.1e} rad are missing",
+            before.name, joint.name, doubt.angle
+        );
+        let label = format!("their common normal is {:.0} m away", doubt.distance);
+        report.push(if refused {
+            Diagnostic::error(
+                span,
+                format!("{almost}; rows of Denavit and Hartenberg lose their digits there"),
+            )
+            .label(label)
+            .help("write the angle so that they are parallel, or so far from it that it is meant")
+        } else {
+            Diagnostic::warning(span, format!("{almost}; they are taken as parallel"))
+                .label(label)
+                .help("write angles with all digits: 1.5707963267948966 for a quarter turn")
+        });
+    }
 }
 
 /// The arm's name: as it is asked for, or after the robot. `None` if no arm can be called so, which has been reported.
@@ -132,7 +161,9 @@ fn name(import: &Import, tree: &Tree, report: &mut Report) -> Option<String> {
 
 fn joint(index: usize, segment: &Segment, kind: JointKind, drive: &Drive, rows: &Rows) -> Joint {
     let row = &rows.rows[index];
-    let body = segment.body.seen_from(&rows.from_joint_frame[index]);
+    let body = segment
+        .body
+        .seen_from(&rows.in_joint_frame[index].inverse());
     Joint {
         kind,
         alpha: Angle::from_radians(row.alpha),
@@ -145,10 +176,15 @@ fn joint(index: usize, segment: &Segment, kind: JointKind, drive: &Drive, rows: 
         friction: drive.friction,
         link: Link {
             mass: body.mass,
-            com: body.com.into(),
+            com: body.com.map(plain).into(),
             inertia: body.inertia_rows(),
         },
     }
+}
+
+/// A coordinate without the digits that only the rounding of a sum or two has put there.
+fn plain(coordinate: f64) -> f64 {
+    tidy(coordinate, 4.0 * f64::EPSILON * coordinate.abs())
 }
 
 fn placement(frame: &Frame) -> Placement {
@@ -161,11 +197,7 @@ fn placement(frame: &Frame) -> Placement {
 fn say_task(task: TaskRows, report: &mut Report) {
     let rows: Vec<&str> = task.iter().map(TaskRow::name).collect();
     let message = format!(
-        "the task, the rows of J in w_D, is yours to choose; {} are those that the arm can move in: {}",
-        match task.len() {
-            1 => "this one".to_owned(),
-            count => format!("these {count}"),
-        },
+        "the task, the rows of J in w_D, is yours to choose; here it is {}, in which the arm can move",
         rows.join(" ")
     );
     report.note(NoteKind::Chosen, message);
@@ -226,6 +258,3 @@ fn refused(tree: &Tree, chain: &Chain, errors: &Diagnostics, report: &Report) {
         report.push(own);
     }
 }
-
-fn too_parallel(_: &Tree, _: &Chain, _: &[()], _: &Report) {}
-fn nearly_parallel(_: &Tree, _: &Chain, _: &Rows, _: &Report) {}

@@ -166,13 +166,7 @@ fn gather(
         // Last in, first out: the file's order.
         for joint in tree.child_joints(link).iter().rev() {
             let child = tree.child_link(*joint);
-            if chain.dropped[child] {
-                let message = format!(
-                    "`{}` is left out, with all that hangs on it",
-                    tree.link(child).name
-                );
-                report.note_at(&tree.link(child).span, NoteKind::Dropped, message);
-            } else if chain.place(*joint).is_none() {
+            if !chain.dropped[child] && chain.place(*joint).is_none() {
                 let element = tree.joint(*joint);
                 let mut frame = frame.times(&element.origin.frame);
                 if element.motion.moves() {

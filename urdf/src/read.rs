@@ -75,10 +75,7 @@ fn link(elements: &Elements, node: Node) -> Option<LinkElement> {
     let owner = called(node, "link");
     let name = elements.word(node, "name", &owner);
     let inertial = elements.only(node, "inertial", &owner);
-    let inertial = match inertial {
-        Some(node) => Some(self::inertial(elements, node, &owner)),
-        None => None,
-    };
+    let inertial = inertial.map(|node| self::inertial(elements, node, &owner));
     let (name, span) = name?;
     Some(LinkElement {
         name: name.to_owned(),

@@ -10,11 +10,11 @@ use crate::rows::Moving;
 /// position's, and where that cannot move the orientation's.
 ///
 /// There is always one: a joint moves the tool or turns it. A row is taken if it adds to those before it at one of several configurations without any symmetry.
-pub(crate) fn task(joints: &[Moving], tool: &Frame) -> TaskRows {
+pub(crate) fn task(kinds: &[JointKind], joints: &[Moving], tool: &Frame) -> TaskRows {
     const CONFIGURATIONS: usize = 5;
     let (linear, angular) = TaskRow::ALL.split_at(3);
     let jacobians: Vec<_> = (0..CONFIGURATIONS)
-        .map(|k| jacobian(joints, tool, &generic(k, joints.len())))
+        .map(|k| jacobian(kinds, joints, tool, &generic(k, joints.len())))
         .collect();
     let mut chosen = Vec::new();
     for row in linear {
@@ -78,14 +78,19 @@ fn generic(configuration: usize, joints: usize) -> Vec<f64> {
 }
 
 /// The columns of the geometric Jacobian at the tool, in the base's axes.
-fn jacobian(joints: &[Moving], tool: &Frame, q: &[f64]) -> Vec<SVector<f64, 6>> {
+fn jacobian(
+    kinds: &[JointKind],
+    joints: &[Moving],
+    tool: &Frame,
+    q: &[f64],
+) -> Vec<SVector<f64, 6>> {
     let mut frame = Frame::identity();
     let mut axes = Vec::new();
-    for (joint, q) in joints.iter().zip(q) {
+    for ((kind, joint), q) in kinds.iter().zip(joints).zip(q) {
         frame = frame.times(&joint.placement);
         let axis = frame.rotation * joint.axis;
-        axes.push((joint.kind, axis, frame.translation));
-        frame = frame.times(&match joint.kind {
+        axes.push((*kind, axis, frame.translation));
+        frame = frame.times(&match kind {
             JointKind::Revolute => Frame::turned(&joint.axis, *q),
             JointKind::Prismatic => Frame::moved(joint.axis * *q),
         });

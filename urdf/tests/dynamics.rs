@@ -24,8 +24,8 @@ struct Truth<const N: usize> {
 impl<const N: usize> Truth<N> {
     fn of(robot: &Robot, q: &SVector<f64, N>) -> Self {
         let poses = robot.poses(q.as_slice());
-        let mut mass_matrix = SMatrix::zeros();
-        let mut gravity_torque = SVector::zeros();
+        let mut mass_matrix = SMatrix::<f64, N, N>::zeros();
+        let mut gravity_torque = SVector::<f64, N>::zeros();
         for (index, link) in robot.links.iter().enumerate() {
             let Some(body) = &link.body else { continue };
             let pose = poses[index] * origin(body.xyz, body.rpy);
@@ -54,7 +54,7 @@ impl<const N: usize> Truth<N> {
         link: usize,
         point: Vector3<f64>,
     ) -> SMatrix<f64, 6, N> {
-        let mut jacobian = SMatrix::zeros();
+        let mut jacobian = SMatrix::<f64, 6, N>::zeros();
         let mut at = Some(link);
         while let Some(link) = at {
             let Link {
@@ -103,7 +103,7 @@ fn check<const N: usize>(robot: &Robot, random: &mut Random) {
         let chain = SerialChain::<N>::try_from(model).unwrap();
         for _ in 0..3 {
             let q = SVector::from_fn(|_, _| random.within(2.0));
-            let truth = Truth::of(robot, &q);
+            let truth = Truth::<N>::of(robot, &q);
             let (text, scale) = (robot.to_urdf(), truth.mass_matrix.amax());
             let tool = chain.forward_kinematics(&q).to_homogeneous();
             assert!(

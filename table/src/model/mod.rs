@@ -22,7 +22,7 @@ pub use inertia::{ImpossibleInertia, impossible_inertia};
 pub use joint_names::joint_name;
 pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
 pub use name::arm_name;
-pub use written::TableText;
+pub use written::{TableText, shortest};
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ use sha2::{Digest, Sha256};
 use ulna::{Joint, Placement, TaskRows};
 
 use crate::diagnostics::{Diagnostics, Sink, TableErrors};
-use crate::table::{AngleUnit, ArmTable, Author};
+use crate::table::{AngleUnit, ArmTable, Author, Convention};
 use crate::toml_reader::read_file;
 
 /// A validated arm of any number of joints: read from a table, or made by a program from a [`Description`].
@@ -47,6 +47,7 @@ pub struct Model {
     joints: Vec<Joint>,
     joint_names: Vec<String>,
     accept_inertia: Vec<bool>,
+    convention: Convention,
     angle_unit: AngleUnit,
     table_hash: String,
 }
@@ -179,6 +180,11 @@ impl Model {
     /// Whether a link's inertia was taken over although no rigid body can have it, base first: `accept_inertia` of a table.
     pub fn accepts_inertia(&self) -> &[bool] {
         &self.accept_inertia
+    }
+
+    /// The convention of the table; [`joints`](Self::joints) are in modified form.
+    pub fn convention(&self) -> Convention {
+        self.convention
     }
 
     /// The unit of the angles in the table; here they are in radians.

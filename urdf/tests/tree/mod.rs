@@ -69,7 +69,7 @@ impl Robot {
             body: random.body(),
         }];
         let mut end = 0;
-        let mut grow = |parent: usize, kind, coordinate, random: &mut Random| {
+        let mut grow = |parent: usize, kind, coordinate: Option<usize>, random: &mut Random| {
             let (xyz, rpy, axis) = place(random);
             let held = kind != Kind::Fixed && coordinate.is_none();
             // What moves has mass; frames between need none.
