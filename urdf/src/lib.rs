@@ -64,6 +64,7 @@ mod import;
 mod imported;
 mod judge;
 mod merge;
+mod motion;
 mod names;
 mod normal;
 mod note;
