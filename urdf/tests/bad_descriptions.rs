@@ -290,7 +290,10 @@ fn what_a_table_refuses_is_told_at_the_joint() {
 
 #[test]
 fn axes_that_are_neither_parallel_nor_not() {
-    let text = edited("xyz=\"0.45 0 0.03\"", "xyz=\"0.45 0 0.03\" rpy=\"0 0.001 0\"");
+    let text = edited(
+        "xyz=\"0.45 0 0.03\"",
+        "xyz=\"0.45 0 0.03\" rpy=\"0 0.001 0\"",
+    );
     insta::assert_snapshot!(refused(&to_hand(), &text));
 }
 

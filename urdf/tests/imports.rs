@@ -171,7 +171,16 @@ fn every_body_counts_once() {
         &impossible,
     );
     assert_eq!(arm.model().accepts_inertia(), [true, false, false]);
-    assert!(arm.table().contains("accept_inertia = true\n"));
+    let table = arm.table();
+    assert!(table.contains("accept_inertia = true\n"), "{table}");
+    assert!(
+        table.contains("# - warning: the inertia of link `column`"),
+        "{table}"
+    );
+    assert!(
+        table.contains("beyond the sum by 9.9 % (line 26)\n"),
+        "{table}"
+    );
     insta::assert_snapshot!(said(&arm));
 }
 
@@ -208,7 +217,11 @@ fn dressings_change_nothing() {
         ),
         edited("<robot ", "<robot xmlns:sensor=\"http://sensor\" ").replace(
             "<link name=\"flange\"/>",
-            "<link name=\"flange\"><sensor:inertial/></link><sensor:joint/>",
+            "<link name=\"flange\"><sensor:inertial/></link><sensor:joint/><sensor:sensor/>",
+        ),
+        edited("<robot ", "<robot xmlns:link=\"http://link\" ").replace(
+            "<link name=\"flange\"/>",
+            "<link name=\"flange\"/><link:link name=\"hand\"/>",
         ),
         edited("xyz=\"0.05 0 0.15\"", "xyz=\" 5e-2\t+0  .15 \""),
     ];
