@@ -69,6 +69,7 @@ fn summarize(path: &Path, model: &Model, out: &mut dyn Write) -> io::Result<()> 
         joints.len()
     )?;
     summarize_drives(model, out)?;
+    summarize_pose(model, out)?;
     writeln!(out, "  sha256         {}", model.table_hash())
 }
 
@@ -99,6 +100,44 @@ fn summarize_drives(model: &Model, out: &mut dyn Write) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// What a data sheet says of an arm: where its tool is at q = 0, how far it reaches, and what its joints hold.
+fn summarize_pose(model: &Model, out: &mut dyn Write) -> io::Result<()> {
+    let pose = model.pose(&[]);
+    let tool = pose.tool();
+    let [x, y, z] = tool.translation.vector.map(decimals).into();
+    let (roll, pitch, yaw) = tool.rotation.euler_angles();
+    let [roll, pitch, yaw] = [roll, pitch, yaw].map(|angle| decimals(angle.to_degrees()));
+    writeln!(
+        out,
+        "  tool at q = 0  {x} {y} {z} m, rpy {roll} {pitch} {yaw} deg, in the world"
+    )?;
+    writeln!(
+        out,
+        "  reach          {} m, the farthest found of the tool from the origin of frame 1",
+        decimals(model.reach())
+    )?;
+    if model.gravity() == [0.0; 3] {
+        return Ok(());
+    }
+    let torques = pose.gravity_torque(model.gravity());
+    let rows = model.joints().iter().zip(model.joint_names()).zip(torques);
+    let held: Vec<_> = rows
+        .map(|((joint, name), torque)| {
+            let unit = match joint.kind {
+                JointKind::Revolute => "N m",
+                JointKind::Prismatic => "N",
+            };
+            format!("{name} {} {unit}", decimals(torque))
+        })
+        .collect();
+    writeln!(out, "  held at q = 0  {}", held.join(", "))
+}
+
+/// A number to four decimals, without zeros at its end; those of a rounded 0 have no sign.
+fn decimals(number: f64) -> f64 {
+    (number * 1e4).round() / 1e4 + 0.0
 }
 
 fn count(joints: &[Joint], has: impl Fn(&Joint) -> bool) -> usize {

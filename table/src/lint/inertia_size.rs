@@ -46,7 +46,8 @@ pub(super) fn large(arm: &Subject<'_>) -> Vec<Diagnostic> {
                 units.join(" or ")
             )
         };
-        Some(at(link, message, size).help(help))
+        let beside = "but the link and half the arm's longest reach from the centroid";
+        Some(at(link, message, beside, size).help(help))
     });
     found.collect()
 }
@@ -62,7 +63,10 @@ pub(super) fn small(arm: &Subject<'_>) -> Vec<Diagnostic> {
             "the inertia of {} is that of a point beside the link",
             link.joint
         );
-        Some(at(link, message, size).help("write the tensor in kg m^2, about the centroid"))
+        Some(
+            at(link, message, "in a link of", size)
+                .help("write the tensor in kg m^2, about the centroid"),
+        )
     });
     found.collect()
 }
@@ -72,10 +76,10 @@ fn size_of(arm: &Subject<'_>, link: &LinkSubject<'_>) -> f64 {
     link.extent.length.max(0.1 * arm.span)
 }
 
-fn at(link: &LinkSubject<'_>, message: String, size: f64) -> Diagnostic {
+fn at(link: &LinkSubject<'_>, message: String, beside: &str, size: f64) -> Diagnostic {
     let gyration = short(link.body.gyration());
     let label = format!(
-        "radius of gyration sqrt(I / m) {gyration} m, of a link of {} m",
+        "radius of gyration sqrt(I / m) {gyration} m, {beside} {} m",
         short(size)
     );
     Diagnostic::warning(link.places.inertia.clone(), message).label(label)
