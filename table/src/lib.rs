@@ -55,8 +55,6 @@ pub use format::reference;
 #[doc(hidden)]
 pub use format::{ANGLE_UNIT, RATED_TORQUE};
 pub use lint::Lint;
-pub use model::{Description, Model};
+pub use model::{Description, ImpossibleInertia, Model, TableText, impossible_inertia};
 pub use pose::Pose;
-#[doc(hidden)]
-pub use table::AngleUnit;
-pub use table::Convention;
+pub use table::{AngleUnit, Convention};

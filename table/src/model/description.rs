@@ -2,7 +2,7 @@
 
 use super::Model;
 use super::joint_names::numbered;
-use super::written::Written;
+use super::written::TableText;
 use crate::diagnostics::{Diagnostic, Diagnostics, Sink, TableErrors};
 use crate::lint::Lint;
 use crate::table::{ArmTable, Author, Convention, InertiaTable};
@@ -52,6 +52,8 @@ pub struct Description {
     pub joint_names: Vec<Option<String>>,
     /// The lints that are switched off.
     pub allow: Vec<Lint>,
+    /// Whether a link's inertia is taken over although no rigid body can have it, base first; those left out at the end are not.
+    pub accept_inertia: Vec<bool>,
 }
 
 impl Model {
@@ -73,7 +75,7 @@ impl Model {
     /// # Errors
     /// Everything that is wrong with the description, at once.
     pub fn lint_description(description: &Description) -> Result<(Self, Diagnostics), TableErrors> {
-        let text = Written(description).to_string();
+        let text = TableText::of_program(description).to_string();
         let source_name = match super::name::check(&description.name) {
             Ok(()) => format!("the description of {}", description.name),
             Err(_) => "the description".to_owned(),
@@ -97,6 +99,7 @@ impl Model {
             joints: self.joints.clone(),
             joint_names: self.given_names(),
             allow: self.allow.clone(),
+            accept_inertia: self.accept_inertia.clone(),
         }
     }
 }

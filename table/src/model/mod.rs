@@ -6,8 +6,10 @@
 
 mod angle;
 mod convention;
+mod definite;
 mod description;
 mod drive;
+mod inertia;
 mod joint_names;
 mod light;
 mod name;
@@ -17,7 +19,9 @@ mod written;
 
 pub(crate) use convention::standard_to_modified;
 pub use description::Description;
+pub use inertia::{ImpossibleInertia, impossible_inertia};
 pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
+pub use written::TableText;
 
 use std::path::Path;
 
@@ -26,7 +30,7 @@ use ulna::{Joint, Placement, TaskRows};
 
 use crate::diagnostics::{Diagnostics, Sink, TableErrors};
 use crate::lint::{self, Lint, Places};
-use crate::table::{ArmTable, Author};
+use crate::table::{AngleUnit, ArmTable, Author, Convention};
 use crate::toml_reader::read_file;
 
 /// A validated arm of any number of joints: read from a table, or made by a program from a [`Description`].
@@ -43,6 +47,9 @@ pub struct Model {
     joints: Vec<Joint>,
     joint_names: Vec<String>,
     allow: Vec<Lint>,
+    accept_inertia: Vec<bool>,
+    convention: Convention,
+    angle_unit: AngleUnit,
     table_hash: String,
 }
 
@@ -185,6 +192,21 @@ impl Model {
     /// Whether the table switches `lint` off.
     pub fn allows(&self, lint: Lint) -> bool {
         self.allow.contains(&lint)
+    }
+
+    /// Whether a link's inertia was taken over although no rigid body can have it, base first: `accept_inertia` of a table.
+    pub fn accepts_inertia(&self) -> &[bool] {
+        &self.accept_inertia
+    }
+
+    /// The convention of the table; [`joints`](Self::joints) are in modified form.
+    pub fn convention(&self) -> Convention {
+        self.convention
+    }
+
+    /// The unit of the angles in the table; here they are in radians.
+    pub fn angle_unit(&self) -> AngleUnit {
+        self.angle_unit
     }
 
     /// SHA-256 of the table's text, hexadecimal; for a model made by a program, of the text that [`Model::new`] writes.
