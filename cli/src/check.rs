@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use ulna::{Friction, Joint, JointKind, Limits, Motor, TaskRow};
-use ulna_table::Model;
+use ulna_table::{AngleUnit, Model};
 
 use crate::{Verdict, console};
 
@@ -108,10 +108,15 @@ fn summarize_pose(model: &Model, out: &mut dyn Write) -> io::Result<()> {
     let tool = pose.tool();
     let [x, y, z] = tool.translation.vector.map(decimals).into();
     let (roll, pitch, yaw) = tool.rotation.euler_angles();
-    let [roll, pitch, yaw] = [roll, pitch, yaw].map(|angle| decimals(angle.to_degrees()));
+    let unit = model.angle_unit();
+    let [roll, pitch, yaw] = [roll, pitch, yaw].map(|angle| match unit {
+        AngleUnit::Degrees => decimals(angle.to_degrees()),
+        AngleUnit::Radians => decimals(angle),
+    });
     writeln!(
         out,
-        "  tool at q = 0  {x} {y} {z} m, rpy {roll} {pitch} {yaw} deg, in the world"
+        "  tool at q = 0  {x} {y} {z} m, rpy {roll} {pitch} {yaw} {}, in the world",
+        unit.word()
     )?;
     writeln!(
         out,

@@ -17,7 +17,7 @@ pub(super) fn find(arm: &Subject<'_>) -> Vec<Diagnostic> {
         let length = short(link.extent.length);
         let label = format!("{} m from a link {length} m long", short(distance));
         let millimetres = link.extent.distance(link.body.com * 1e-3) <= allowed;
-        let help = if millimetres && distance >= 1.0 {
+        let help = if millimetres && distance > 3.0 * arm.longest {
             let metres = (link.places.com_given * 1e-3).map(round);
             let [x, y, z] = metres.into();
             format!("lengths are in metres: if these are millimetres, write `com = [{x:?}, {y:?}, {z:?}]`")

@@ -46,7 +46,7 @@ pub(super) fn large(arm: &Subject<'_>) -> Vec<Diagnostic> {
                 units.join(" or ")
             )
         };
-        let beside = "but the link and half the arm's longest reach from the centroid";
+        let beside = "where the link and half the arm's longest reach";
         Some(at(link, message, beside, size).help(help))
     });
     found.collect()
@@ -79,7 +79,7 @@ fn size_of(arm: &Subject<'_>, link: &LinkSubject<'_>) -> f64 {
 fn at(link: &LinkSubject<'_>, message: String, beside: &str, size: f64) -> Diagnostic {
     let gyration = short(link.body.gyration());
     let label = format!(
-        "radius of gyration sqrt(I / m) {gyration} m, {beside} {} m",
+        "radius of gyration sqrt(I / m) is {gyration} m, {beside} {} m",
         short(size)
     );
     Diagnostic::warning(link.places.inertia.clone(), message).label(label)

@@ -54,7 +54,7 @@ fn short(number: f64) -> String {
         return "0".to_owned();
     }
     let digits = 2 - number.abs().log10().floor() as i32;
-    if !(-3..=6).contains(&digits) {
+    if !(-2..=6).contains(&digits) {
         return format!("{number:.1e}");
     }
     let text = format!("{number:.*}", usize::try_from(digits).unwrap_or(0));
@@ -78,7 +78,7 @@ mod tests {
             (1.0, "1"),
             (0.000_012, "1.2e-5"),
             (-0.50, "-0.5"),
-            (123_456_789.0, "1.2e8"),
+            (538_038.0, "5.4e5"),
         ] {
             assert_eq!(short(number), text);
         }

@@ -46,7 +46,7 @@ lints! {
     OddGravity = "odd_gravity" by gravity::odd,
         "Gravity is none of a planet's or a large moon's (1.3 to 26 m/s^2): it may be in g, in feet or in cm";
     OtherConvention = "other_convention" by other_convention::find,
-        "Two neighbouring joints turn about one axis, or the task is singular everywhere, and neither is so in the other Denavit-Hartenberg convention";
+        "Two neighbouring joints turn about one axis, or the tool is on the last one and the task singular everywhere, and neither is so in the other Denavit-Hartenberg convention";
     RoundedAngle = "rounded_angle" by found_elsewhere,
         "An angle in radians is a quarter turn rounded to a few digits: only the full number has an exact sine and cosine";
     OtherAngleUnit = "other_angle_unit" by angle_unit::find,

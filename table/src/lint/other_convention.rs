@@ -1,7 +1,8 @@
 //! A table that only makes sense in the other Denavit-Hartenberg convention.
 //!
 //! The last row of a standard table rarely turns or shifts anything, `a = 0` and `alpha = 0`, and nor does the first of a
-//! modified one: read in the other convention such a row makes two neighbouring joints turn about one axis.
+//! modified one: read in the other convention such a row makes two neighbouring joints turn about one axis. Where the last row of
+//! a standard table holds a length, modified form has no place for it: the tool is on the last axis, and the base is shifted instead.
 
 use nalgebra::{DMatrix, Vector3};
 
@@ -33,8 +34,10 @@ pub(super) fn find(arm: &Subject<'_>) -> Vec<Diagnostic> {
             format!("as such {} and {} {moves}", both[0], both[1])
         })
         .or_else(|| {
-            let singular = is_singular_everywhere(joints, model.base(), tool, task);
-            singular.then(|| "as such the task is singular in every configuration".to_owned())
+            let singular = begins_with_a_link(arm)
+                && ends_on_its_axis(joints, tool)
+                && is_singular_everywhere(joints, model.base(), tool, task);
+            singular.then(|| "as such the tool is on the last axis, and the task singular in every configuration".to_owned())
         })
     else {
         return Vec::new();
@@ -66,6 +69,18 @@ fn coaxial(joints: &[Joint]) -> Option<usize> {
             _ => false,
         }
     })
+}
+
+/// Whether a modified table's first row shifts or turns anything: `a` and `alpha` of what stands still are rarely written there.
+fn begins_with_a_link(arm: &Subject<'_>) -> bool {
+    let first = arm.model.joints().first();
+    !arm.places.is_standard() && first.is_some_and(|row| row.a != 0.0 || row.alpha.radians != 0.0)
+}
+
+/// Whether the last joint only turns the tool about itself.
+fn ends_on_its_axis(joints: &[Joint], tool: &Placement) -> bool {
+    let turns = |joint: &Joint| joint.kind == JointKind::Revolute;
+    joints.last().is_some_and(turns) && tool.translation[0] == 0.0 && tool.translation[1] == 0.0
 }
 
 /// The chain that the rows make in the other convention, in modified form: how its joints stand, not what they carry.
