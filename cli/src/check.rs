@@ -108,15 +108,14 @@ fn summarize_pose(model: &Model, out: &mut dyn Write) -> io::Result<()> {
     let tool = pose.tool();
     let [x, y, z] = tool.translation.vector.map(decimals).into();
     let (roll, pitch, yaw) = tool.rotation.euler_angles();
-    let unit = model.angle_unit();
-    let [roll, pitch, yaw] = [roll, pitch, yaw].map(|angle| match unit {
-        AngleUnit::Degrees => decimals(angle.to_degrees()),
-        AngleUnit::Radians => decimals(angle),
-    });
+    let (scale, unit) = match model.angle_unit() {
+        AngleUnit::Degrees => (1_f64.to_degrees(), "deg"),
+        AngleUnit::Radians => (1.0, "rad"),
+    };
+    let [roll, pitch, yaw] = [roll, pitch, yaw].map(|angle| decimals(angle * scale));
     writeln!(
         out,
-        "  tool at q = 0  {x} {y} {z} m, rpy {roll} {pitch} {yaw} {}, in the world",
-        unit.word()
+        "  tool at q = 0  {x} {y} {z} m, rpy {roll} {pitch} {yaw} {unit}, in the world"
     )?;
     writeln!(
         out,

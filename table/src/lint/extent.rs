@@ -4,6 +4,11 @@ use nalgebra::{Rotation3, Vector3};
 
 use ulna::{Joint, Placement};
 
+/// The sine of an angle between two axes below which where they pass each other is no place on a link: six degrees.
+const NEARLY_PARALLEL: f64 = 0.1;
+/// Below this one the axes are parallel.
+const PARALLEL: f64 = 1e-9;
+
 /// The line that a link reaches over, in its frame: from the foot of the row's x on the joint's axis, `d` before the origin,
 /// over the origin along the next row's `a` to that joint's axis and along it to the next origin; for the last link to the tool.
 ///
@@ -12,6 +17,8 @@ pub(super) struct Extent {
     points: Vec<Vector3<f64>>,
     /// m.
     pub(super) length: f64,
+    /// Whether the points say where the link is. Where two axes are nearly parallel, as a calibration leaves them, their origins are anywhere along them.
+    pub(super) is_certain: bool,
 }
 
 impl Extent {
@@ -34,6 +41,8 @@ impl Extent {
         let steps = points.windows(2).map(|ends| (ends[1] - ends[0]).norm());
         Self {
             length: steps.sum(),
+            // The foot depends on the axis before, the origin on the one behind, the next origin on the one behind that.
+            is_certain: (index..=index + 2).all(|i| joints.get(i).is_none_or(crosses_clearly)),
             points,
         }
     }
@@ -74,4 +83,10 @@ impl Extent {
             [low.min(place), high.max(place)]
         })
     }
+}
+
+/// Whether where a joint's axis passes the one before is well defined, or does not matter.
+pub(super) fn crosses_clearly(joint: &Joint) -> bool {
+    let sine = joint.alpha.sin_cos().0.abs();
+    sine <= PARALLEL || sine >= NEARLY_PARALLEL
 }

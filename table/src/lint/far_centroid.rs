@@ -4,10 +4,11 @@ use super::short;
 use super::subject::{LinkSubject, Subject};
 use crate::diagnostics::Diagnostic;
 
-/// A warning for each centroid that is farther from its link than half the link's length and the arm's longest link,
-/// unless the body is so long that it reaches back to the link.
+/// A warning for each centroid that is farther from its link than half the link's length, the arm's longest link and
+/// half the body's own length together.
 pub(super) fn find(arm: &Subject<'_>) -> Vec<Diagnostic> {
-    let far = arm.links.iter().filter_map(|link| {
+    let certain = arm.links.iter().filter(|link| link.extent.is_certain);
+    let far = certain.filter_map(|link| {
         let allowed = allowed(arm, link);
         let distance = link.extent.distance(link.body.com);
         if distance <= allowed {
@@ -17,7 +18,7 @@ pub(super) fn find(arm: &Subject<'_>) -> Vec<Diagnostic> {
         let length = short(link.extent.length);
         let label = format!("{} m from a link {length} m long", short(distance));
         let millimetres = link.extent.distance(link.body.com * 1e-3) <= allowed;
-        let help = if millimetres && distance > 3.0 * arm.longest {
+        let help = if millimetres && distance > 1.0_f64.max(3.0 * arm.longest) {
             let metres = (link.places.com_given * 1e-3).map(round);
             let [x, y, z] = metres.into();
             format!("lengths are in metres: if these are millimetres, write `com = [{x:?}, {y:?}, {z:?}]`")
@@ -39,7 +40,7 @@ fn allowed(arm: &Subject<'_>, link: &LinkSubject<'_>) -> f64 {
         return 20.0 * body;
     }
     // An inertia in a wrong unit makes no body of that size.
-    lengths.max(body.min(arm.span))
+    lengths + body.min(3.0 * arm.span)
 }
 
 /// Without the digits that only the division has put there.

@@ -69,7 +69,8 @@ fn fits_only_then(arm: &Subject<'_>, link: &LinkSubject<'_>) -> bool {
     let offset = link.from_given_origin.dot(&direction);
     let without = (given.powi(2) - 3.0 * offset.powi(2)).max(0.0).sqrt();
     let out = |half: f64| [low - (middle - half), middle + half - high];
-    length > 0.5 * arm.longest
+    link.extent.is_certain
+        && length > 0.5 * arm.longest
         && out(given).iter().all(|out| *out > 0.25 * length)
         && out(without).iter().all(|out| *out < 0.15 * length)
 }

@@ -13,7 +13,8 @@ const ACROSS: f64 = 0.5;
 
 /// A warning for each slender body that lies across a long, straight link.
 pub(super) fn find(arm: &Subject<'_>) -> Vec<Diagnostic> {
-    let found = arm.links.iter().filter_map(|link| {
+    let certain = arm.links.iter().filter(|link| link.extent.is_certain);
+    let found = certain.filter_map(|link| {
         let direction = link.extent.direction()?;
         let (axis, times) = (link.body.longest_axis, link.body.slenderness());
         if link.extent.length <= 0.5 * arm.longest

@@ -20,7 +20,8 @@ const USUAL: std::ops::RangeInclusive<f64> = 0.06..=0.6;
 
 /// A warning for each link whose mass would lie farther out than the link.
 pub(super) fn large(arm: &Subject<'_>) -> Vec<Diagnostic> {
-    let found = arm.links.iter().filter_map(|link| {
+    let certain = arm.links.iter().filter(|link| link.extent.is_certain);
+    let found = certain.filter_map(|link| {
         let body = &link.body;
         let size = link.extent.farthest(body.com) + 0.5 * arm.longest;
         // An arm without lengths says nothing of its size.
@@ -54,7 +55,8 @@ pub(super) fn large(arm: &Subject<'_>) -> Vec<Diagnostic> {
 
 /// A warning for each link whose mass would lie in a point of it.
 pub(super) fn small(arm: &Subject<'_>) -> Vec<Diagnostic> {
-    let found = arm.links.iter().filter_map(|link| {
+    let certain = arm.links.iter().filter(|link| link.extent.is_certain);
+    let found = certain.filter_map(|link| {
         let size = size_of(arm, link);
         if link.body.half_spread() >= NEAREST * size {
             return None;

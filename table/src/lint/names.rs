@@ -52,7 +52,7 @@ lints! {
     OtherAngleUnit = "other_angle_unit" by angle_unit::find,
         "Angles or limits look like the other unit: no angle beyond 6.3 degrees and fractions of pi among them, or limits of 20 radians and more";
     FarCentroid = "far_centroid" by far_centroid::find,
-        "A centroid is farther from its link (from the foot of its axis over its origin to the next origin or the tool) than half the link and the arm's longest link: \
+        "A centroid is farther from its link (from the foot of its axis over its origin to the next origin or the tool) than half the link, the arm's longest link and half the body's own length: \
          it may be in mm, or in another frame";
     HeavyLink = "heavy_link" by heavy_link::find,
         "A moving mass beyond a tonne and beyond 2 t for each cubic metre of the arm's length cubed, or a link of 100 kg that would be denser than osmium: \

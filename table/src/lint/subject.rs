@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::Places;
 use super::body::Body;
-use super::extent::Extent;
+use super::extent::{Extent, crosses_clearly};
 use super::places::JointPlaces;
 use crate::Model;
 use ulna::JointKind;
@@ -15,7 +15,7 @@ pub(super) struct Subject<'m> {
     pub(super) places: &'m Places,
     /// Its links, base first.
     pub(super) links: Vec<LinkSubject<'m>>,
-    /// The length of its longest link, m, or of its longest slide.
+    /// The length of its longest link, m, or of its longest slide; 0 if no link says where it is.
     pub(super) longest: f64,
     /// The lengths of all rows but the first and of the tool, one after the other, m: no tool is farther from joint 1.
     pub(super) span: f64,
@@ -59,13 +59,19 @@ impl<'m> Subject<'m> {
             }
         });
         let links: Vec<_> = links.collect();
-        let longest = links.iter().map(|link| link.extent.length);
+        let certain = links.iter().filter(|link| link.extent.is_certain);
+        let longest = certain.map(|link| link.extent.length);
         let slides = joints
             .iter()
             .filter(|joint| joint.kind == JointKind::Prismatic)
             .map(|joint| joint.limits.upper - joint.limits.lower)
             .filter(|travel| travel.is_finite());
-        let rows = joints.iter().skip(1).map(|row| row.a.hypot(row.d));
+        let clear = |index: usize| joints.get(index).is_none_or(crosses_clearly);
+        let rows = joints.iter().enumerate().skip(1);
+        let rows = rows.map(|(index, row)| match clear(index) && clear(index + 1) {
+            true => row.a.hypot(row.d),
+            false => row.a.abs(),
+        });
         Self {
             model,
             places,
