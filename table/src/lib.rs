@@ -55,6 +55,8 @@ pub use format::reference;
 #[doc(hidden)]
 pub use format::{ANGLE_UNIT, RATED_TORQUE};
 pub use lint::Lint;
+#[doc(hidden)]
+pub use model::shortest;
 pub use model::{Description, ImpossibleInertia, Model, TableText, impossible_inertia};
 pub use pose::Pose;
 pub use table::{AngleUnit, Convention};

@@ -42,7 +42,7 @@ impl Extent {
         Self {
             length: steps.sum(),
             // The foot depends on the axis before, the origin on the one behind, the next origin on the one behind that.
-            is_certain: (index..=index + 2).all(|i| joints.get(i).is_none_or(crosses_clearly)),
+            is_certain: (index..=index + 2).all(|row| crosses_clearly(joints, row)),
             points,
         }
     }
@@ -85,8 +85,11 @@ impl Extent {
     }
 }
 
-/// Whether where a joint's axis passes the one before is well defined, or does not matter.
-pub(super) fn crosses_clearly(joint: &Joint) -> bool {
-    let sine = joint.alpha.sin_cos().0.abs();
-    sine <= PARALLEL || sine >= NEARLY_PARALLEL
+/// Whether it is well defined where the axis of row `index` passes the one before. A parallel one passes it anywhere: its origin
+/// is beside the one before, and as well defined as that.
+pub(super) fn crosses_clearly(joints: &[Joint], index: usize) -> bool {
+    let rows = joints.iter().take(index + 1).rev();
+    let mut sines = rows.map(|row| row.alpha.sin_cos().0.abs());
+    let crossing = sines.find(|sine| *sine > PARALLEL);
+    crossing.is_none_or(|sine| sine >= NEARLY_PARALLEL)
 }

@@ -66,11 +66,12 @@ impl<'m> Subject<'m> {
             .filter(|joint| joint.kind == JointKind::Prismatic)
             .map(|joint| joint.limits.upper - joint.limits.lower)
             .filter(|travel| travel.is_finite());
-        let clear = |index: usize| joints.get(index).is_none_or(crosses_clearly);
         let rows = joints.iter().enumerate().skip(1);
-        let rows = rows.map(|(index, row)| match clear(index) && clear(index + 1) {
-            true => row.a.hypot(row.d),
-            false => row.a.abs(),
+        let rows = rows.map(|(index, row)| {
+            match crosses_clearly(joints, index) && crosses_clearly(joints, index + 1) {
+                true => row.a.hypot(row.d),
+                false => row.a.abs(),
+            }
         });
         Self {
             model,

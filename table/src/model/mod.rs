@@ -21,7 +21,7 @@ pub(crate) use convention::standard_to_modified;
 pub use description::Description;
 pub use inertia::{ImpossibleInertia, impossible_inertia};
 pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
-pub use written::TableText;
+pub use written::{TableText, shortest};
 
 use std::path::Path;
 
