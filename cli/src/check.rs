@@ -11,7 +11,13 @@ use crate::{Verdict, console};
 
 /// Read tables: a summary of each arm, or every error with its line
 #[derive(Args)]
-#[command(after_help = "Example:\n  ulna check arms/ssrms.toml arms/planar_2r.toml")]
+#[command(
+    after_help = "What is legal but suspicious is a warning, which says how the table switches it off; `ulna help table` lists them all.\n\n\
+                  The tool is that at q = 0, in the world. The reach is the largest distance of the tool point from the origin of frame 1 \
+                  within the joints' limits that is found by stretching the arm, joint by joint, from q = 0 and eight other configurations; \
+                  a sliding joint without limits is left at 0. What is held are the torques against gravity at q = 0, without a payload.\n\n\
+                  Example:\n  ulna check arms/ssrms.toml arms/planar_2r.toml"
+)]
 pub(crate) struct Arguments {
     /// Arm tables (TOML)
     #[arg(required = true, value_name = "TABLE")]

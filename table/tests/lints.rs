@@ -162,6 +162,8 @@ fn angles_that_look_like_the_other_unit() {
     );
     let shown = [&fraction, &narrow, &wide].map(|text| fires(Lint::OtherAngleUnit, text));
     insta::assert_snapshot!(shown.join("\n\n"));
+    let full = edited(PLANAR, &[("alpha = 0.0", "alpha = -1.5707963267948966")]);
+    fires(Lint::OtherAngleUnit, &full);
     // What a calibration finds of parallel axes, and the limits of one joint among larger ones.
     is_silent(&edited(
         PLANAR,

@@ -44,11 +44,12 @@ fn fractions_of_pi(arm: &Subject<'_>) -> Option<Diagnostic> {
     )
 }
 
-/// Whether a number is a multiple of pi / 12 to three decimals, and no multiple of pi / 2.
+/// Whether a number is a multiple of pi / 12 to three decimals. One of pi / 2 must be so to all digits: a rounded one is told where it is read.
 fn is_fraction_of_pi(value: f64) -> bool {
     let twelfths = (value * 12.0 / PI).round();
     let off = (value - twelfths * PI / 12.0).abs();
-    twelfths != 0.0 && twelfths % 6.0 != 0.0 && off <= 5.1e-4
+    let rounding = if twelfths % 6.0 == 0.0 { 1e-15 } else { 5.1e-4 };
+    twelfths != 0.0 && off <= rounding
 }
 
 /// In degrees: two limits or more, and none beyond a turn in radians.

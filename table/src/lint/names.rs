@@ -58,11 +58,11 @@ lints! {
         "A moving mass beyond a tonne and beyond 2 t for each cubic metre of the arm's length cubed, or a link of 100 kg that would be denser than osmium: \
          it may be in grams";
     LargeInertia = "large_inertia" by inertia_size::large,
-        "A link's mass would lie farther from its centroid than the link does, by a quarter: the inertia may be in g mm^2, kg mm^2 or g cm^2";
+        "By its inertia a link's mass lies farther from its centroid (root mean square) than 1.25 times what the link and half the arm's longest reach from there: it may be in g mm^2, kg mm^2 or g cm^2";
     SmallInertia = "small_inertia" by inertia_size::small,
-        "A link's mass would lie within 1/125 of its length around its centroid: the inertia may have been divided by a thousand or more";
+        "By its inertia a link's mass lies within 1/125 of the link's length around its centroid: it may have been divided by a thousand or more";
     InertiaAboutOrigin = "inertia_about_origin" by inertia_about_origin::find,
-        "Inertias about the frames' origins seem to stand for those about the centroids: every link is still a body when m c^2 is taken off, and some fit their links only then";
+        "Inertias seem to be about the frames' origins, not about the centroids: with m c^2 taken off every link is still a body (one link in five of sound tables is), and a rod fits its link only then or three links are much smaller";
     InertiaAcross = "inertia_across" by inertia_across::find,
         "By its inertia a link is three times as long across as along: the tensor may be in other axes than those of the link's frame";
     SingularTask = "singular_task" by found_elsewhere,
