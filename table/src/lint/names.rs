@@ -62,7 +62,7 @@ lints! {
     SmallInertia = "small_inertia" by inertia_size::small,
         "By its inertia a link's mass lies within 1/125 of the link's length around its centroid: it may have been divided by a thousand or more";
     InertiaAboutOrigin = "inertia_about_origin" by inertia_about_origin::find,
-        "Inertias seem to be about the frames' origins, not about the centroids: with m c^2 taken off every link is still a body (one link in five of sound tables is), and a rod fits its link only then or three links are much smaller";
+        "Inertias seem to be about the frames' origins, not about the centroids: with m c^2 taken off every link is still a body (one link in five of sound tables is), and a rod fits its link only then, or three links become much smaller bodies";
     InertiaAcross = "inertia_across" by inertia_across::find,
         "By its inertia a link is three times as long across as along: the tensor may be in other axes than those of the link's frame";
     SingularTask = "singular_task" by found_elsewhere,
