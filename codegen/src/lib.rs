@@ -53,7 +53,7 @@ mod schedule;
 mod sines;
 
 use ulna::MethodSet;
-use ulna_table::Model;
+use ulna_table::{Lint, Model};
 
 pub use accuracy::Conditioned;
 pub use base_parameters::{BaseParameter, BaseParameters, Term};
@@ -149,20 +149,25 @@ fn compile_methods(model: &Model, methods: MethodSet) -> Compiled {
         methods,
         base_parameters,
         states: [states.random(), states.near_singular],
-        warnings: warnings_of(&states),
+        warnings: warnings_of(model, &states),
     }
 }
 
-/// What the user should know of an arm before there is code for it; a sentence each.
+/// What the user should know of an arm before there is code for it, a sentence each, beside what [`Model::lint`] finds.
 pub fn warnings(model: &Model) -> Vec<String> {
-    warnings_of(&TestStates::new(model))
+    warnings_of(model, &TestStates::new(model))
 }
 
-fn warnings_of(states: &TestStates) -> Vec<String> {
-    let singular = "w_D is 0 in every configuration: the task's rows of J depend on each other; \
-                    leave out of [task] rows what the arm cannot move";
-    let found = states.singular_everywhere.then(|| singular.to_owned());
-    found.into_iter().collect()
+fn warnings_of(model: &Model, states: &TestStates) -> Vec<String> {
+    let lint = Lint::SingularTask;
+    if !states.singular_everywhere || model.allows(lint) {
+        return Vec::new();
+    }
+    vec![format!(
+        "w_D is 0 in every configuration: the task's rows of J depend on each other; \
+         leave out of [task] rows what the arm cannot move (`allow = [{:?}]` switches this off)",
+        lint.name()
+    )]
 }
 
 fn compile_method(model: &Model, method: Method, choices: Choices) -> Program {
