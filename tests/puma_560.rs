@@ -255,8 +255,8 @@ fn agrees(backend: &str, arm: &impl Arm<6>) {
             expectation.source
         );
         for (actual, expected) in actual.iter().zip(&expectation.expected) {
-            let error = (actual - expected).abs();
-            if !(error <= expectation.tolerance(*expected)) {
+            let within = (actual - expected).abs() <= expectation.tolerance(*expected);
+            if !within {
                 let Expectation {
                     source, quantity, ..
                 } = expectation;
@@ -285,16 +285,12 @@ fn the_programs_equal_what_is_published() {
 /// The table's friction is theirs at the joint, with the mean of Coulomb's two sizes; its rotors are theirs.
 #[test]
 fn friction_is_the_mean_of_both_ways() {
-    let Drives {
-        ratio,
-        rotor_inertia,
-        ..
-    } = published().drives;
     let drives = published().drives;
     let model = table();
     for (i, joint) in model.joints().iter().enumerate() {
         let motor = joint.motor;
-        assert_eq!((motor.ratio, motor.inertia), (ratio[i], rotor_inertia[i]));
+        assert_eq!(motor.ratio, drives.ratio[i]);
+        assert_eq!(motor.inertia, drives.rotor_inertia[i]);
     }
     let chain = SerialChain::<6>::try_from(&model).unwrap();
     let forwards = Vector6::repeat(1.0);
