@@ -49,5 +49,7 @@ pub use diagnostics::TableErrors;
 pub use format::reference;
 #[doc(hidden)]
 pub use format::{ANGLE_UNIT, RATED_TORQUE};
+#[doc(hidden)]
+pub use model::shortest;
 pub use model::{Description, ImpossibleInertia, Model, TableText, impossible_inertia};
 pub use table::{AngleUnit, Convention};

@@ -8,14 +8,10 @@ use crate::diagnostics::{Diagnostic, Sink};
 use crate::format;
 use crate::table::{InertiaTable, LinkTable};
 use crate::toml_reader::Located;
+use ulna::internal::bounds::{MOMENT_ROUNDING, TRIANGLE_TOLERANCE};
 
 /// Smallest principal moment, kg·m²: a body of a milligram and a millimetre.
 const LEAST_MOMENT: f64 = 1e-12;
-/// Share of the largest principal moment that counts as rounding when a tensor is tested for positive definiteness.
-const MOMENT_ROUNDING: f64 = 1e-12;
-/// Share of the largest principal moment by which the triangle inequality may be missed:
-/// tables are printed to three or four digits, and a plate or a thin rod meets it with equality.
-const TRIANGLE_TOLERANCE: f64 = 1e-3;
 
 /// The tensor, if a rigid body can have it or the table accepts it all the same.
 pub(super) fn inertia(link: &LinkTable, sink: &Sink) -> Option<[[f64; 3]; 3]> {

@@ -20,7 +20,7 @@ mod written;
 pub use description::Description;
 pub use inertia::{ImpossibleInertia, impossible_inertia};
 pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
-pub use written::TableText;
+pub use written::{TableText, shortest};
 
 use std::path::Path;
 
@@ -28,7 +28,7 @@ use sha2::{Digest, Sha256};
 use ulna::{Joint, Placement, TaskRows};
 
 use crate::diagnostics::{Diagnostics, Sink, TableErrors};
-use crate::table::{AngleUnit, ArmTable, Author};
+use crate::table::{AngleUnit, ArmTable, Author, Convention};
 use crate::toml_reader::read_file;
 
 /// A validated arm of any number of joints: read from a table, or made by a program from a [`Description`].
@@ -45,6 +45,7 @@ pub struct Model {
     joints: Vec<Joint>,
     joint_names: Vec<String>,
     accept_inertia: Vec<bool>,
+    convention: Convention,
     angle_unit: AngleUnit,
     table_hash: String,
 }
@@ -177,6 +178,11 @@ impl Model {
     /// Whether a link's inertia was taken over although no rigid body can have it, base first: `accept_inertia` of a table.
     pub fn accepts_inertia(&self) -> &[bool] {
         &self.accept_inertia
+    }
+
+    /// The convention of the table; [`joints`](Self::joints) are in modified form.
+    pub fn convention(&self) -> Convention {
+        self.convention
     }
 
     /// The unit of the angles in the table; here they are in radians.

@@ -81,6 +81,7 @@ impl ArmTable {
             joints,
             joint_names: joint_names?,
             accept_inertia: accepted.iter().map(Option::is_some).collect(),
+            convention: self.convention?,
             angle_unit: angles?.unit,
             table_hash: String::new(),
         })

@@ -7,6 +7,7 @@ use std::fmt::{self, Write};
 
 use super::Description;
 use crate::table::{AngleUnit, Author, Convention};
+pub use number::shortest;
 use number::{Number, Numbers, Quoted, in_unit};
 use turn::roll_pitch_yaw;
 use ulna::{Angle, Friction, Joint, JointKind, Limits, Link, Motor, Placement, TaskRow};

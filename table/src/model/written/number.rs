@@ -47,15 +47,20 @@ impl fmt::Display for Quoted<'_> {
 /// An angle, or an angle's rate, in `unit`: the number of the fewest digits that is read as these radians, or is off by no
 /// more than `slack`. Whoever wrote 110.0 finds it again.
 pub(super) fn in_unit(radians: f64, unit: AngleUnit, slack: f64) -> f64 {
-    /// As many digits as tell doubles apart.
-    const DIGITS: usize = 17;
-    let (value, read): (f64, fn(f64) -> f64) = match unit {
-        AngleUnit::Radians => (radians, |value| value),
-        AngleUnit::Degrees => (radians.to_degrees(), f64::to_radians),
-    };
-    (0..DIGITS)
+    let near = |read: f64| (read - radians).abs() <= slack;
+    match unit {
+        AngleUnit::Radians => shortest(radians, near),
+        AngleUnit::Degrees => shortest(radians.to_degrees(), |short| near(short.to_radians())),
+    }
+}
+
+/// The number of the fewest decimal digits near `value` that is `good`; `value` itself if none is.
+pub fn shortest(value: f64, good: impl Fn(f64) -> bool) -> f64 {
+    /// As many as tell doubles apart, less one.
+    const DIGITS: usize = 16;
+    (0..=DIGITS)
         .filter_map(|digits| format!("{value:.digits$e}").parse().ok())
-        .find(|short| (read(*short) - radians).abs() <= slack)
+        .find(|short| good(*short))
         .unwrap_or(value)
 }
 
