@@ -41,7 +41,7 @@ def text(repository, commit, path):
 
 
 def number(word):
-    """A number of a URDF, or a product or quotient with pi in a xacro's ${...}."""
+    """A number of a URDF, or pi or a part of it in a xacro's ${...}."""
     expression = word.strip("${} ")
     if re.fullmatch(r"-?pi(/\d+)?", expression):
         return math.pi * (-1 if expression.startswith("-") else 1) / int(expression.partition("/")[2] or 1)
@@ -96,9 +96,9 @@ def first_by_name(root, tag):
 
 def ur5e():
     """The controller's base frame is `base_link_inertia`; `tool0` is the frame of wrist 3."""
-    read = lambda path: yaml.load(re.sub(r"!degrees", "", text("UniversalRobots/Universal_Robots_ROS2_Description", "2221ec0", path)), yaml.SafeLoader)
-    kinematics = read("config/ur5e/default_kinematics.yaml")["kinematics"]
-    parameters = read("config/ur5e/physical_parameters.yaml")["inertia_parameters"]
+    repository = ("UniversalRobots/Universal_Robots_ROS2_Description", "2221ec0")
+    kinematics = yaml.safe_load(text(*repository, "config/ur5e/default_kinematics.yaml"))["kinematics"]
+    parameters = yaml.safe_load(text(*repository, "config/ur5e/physical_parameters.yaml"))["inertia_parameters"]
     chain = []
     for name in ("shoulder", "upper_arm", "forearm", "wrist_1", "wrist_2", "wrist_3"):
         row, turn = kinematics[name], parameters["rotation"][name]
@@ -149,8 +149,8 @@ def build(chain, tip):
     model = pin.Model()
     model.gravity.linear = np.array([0.0, 0.0, -9.81])
     parent = 0
-    for number_, (before, axis, link) in enumerate(chain, 1):
-        parent = model.addJoint(parent, pin.JointModelRevoluteUnaligned(axis), before, f"joint{number_}")
+    for index, (before, axis, link) in enumerate(chain, 1):
+        parent = model.addJoint(parent, pin.JointModelRevoluteUnaligned(axis), before, f"joint{index}")
         model.appendBodyToJoint(parent, link, pin.SE3.Identity())
     return model, model.addFrame(pin.Frame("tool", parent, 0, tip, pin.FrameType.OP_FRAME))
 
