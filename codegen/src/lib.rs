@@ -51,6 +51,7 @@ mod label;
 mod op;
 mod schedule;
 mod sines;
+mod stage;
 
 use ulna::MethodSet;
 use ulna_table::{Lint, Model};
@@ -67,6 +68,7 @@ pub use interpret::Interpreter;
 pub use label::Label;
 pub use op::Op;
 pub use schedule::{Operand, Output, Program, Size, Step};
+pub use stage::Stage;
 pub use ulna::Method;
 
 use accuracy::TestStates;
@@ -127,8 +129,9 @@ pub fn compile(model: &Model) -> Compiled {
     Generator::new().compile(model)
 }
 
-/// Those methods as programs.
-fn compile_methods(model: &Model, methods: MethodSet) -> Compiled {
+/// Those methods as programs; `watch` is told of every step before it is taken.
+fn compile_methods(model: &Model, methods: MethodSet, watch: &dyn Fn(Stage)) -> Compiled {
+    watch(Stage::Choosing);
     let states = TestStates::new(model);
     let base_parameters = BaseParameters::of(model);
     let choices = Choices {
@@ -136,6 +139,7 @@ fn compile_methods(model: &Model, methods: MethodSet) -> Compiled {
         ..choose(model, &states, methods)
     };
     let methods = methods.iter().map(|method| {
+        watch(Stage::Formulating(method));
         let program = compile_method(model, method, choices);
         MethodProgram {
             method,

@@ -141,6 +141,9 @@ impl Model {
 
 /// What is in it.
 impl Model {
+    /// The most joints that an arm may have.
+    pub const MAX_JOINTS: usize = ArmTable::MAX_JOINTS;
+
     /// The arm's name, `snake_case`, a Rust identifier that is no keyword.
     pub fn name(&self) -> &str {
         &self.name
