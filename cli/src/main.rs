@@ -17,6 +17,7 @@ mod help;
 mod joints;
 mod man;
 mod methods;
+mod new;
 mod numbers;
 mod output;
 mod reproduce;
@@ -52,6 +53,7 @@ enum Command {
     Reproduce(reproduce::Arguments),
     Assess(assess::Arguments),
     Campaign(campaign::Arguments),
+    New(new::Arguments),
     Check(check::Arguments),
     Generate(generate::Arguments),
     Verify(verify::Arguments),
@@ -76,6 +78,7 @@ impl Command {
             Self::Reproduce(arguments) => reproduce::run(&arguments, out),
             Self::Assess(arguments) => assess::run(&arguments, out),
             Self::Campaign(arguments) => campaign::run(&arguments, out),
+            Self::New(arguments) => new::run(&arguments),
             Self::Check(arguments) => check::run(&arguments, out),
             Self::Generate(arguments) => generate::run(&arguments, out),
             Self::Verify(arguments) => verify::run(&arguments, out),

@@ -49,7 +49,9 @@ pub use diagnostics::TableErrors;
 pub use format::reference;
 #[doc(hidden)]
 pub use format::{ANGLE_UNIT, RATED_TORQUE};
-pub use model::{Description, Model};
+#[doc(hidden)]
+pub use model::is_keyword;
+pub use model::{Description, Model, name_for};
 #[doc(hidden)]
 pub use table::AngleUnit;
 pub use table::Convention;
