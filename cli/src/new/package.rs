@@ -125,10 +125,9 @@ fn name_of(folder: &Path) -> anyhow::Result<String> {
 /// Whether a package with a library can have that name without a warning: a crate in lower case that hides no other.
 fn can_be_a_package(name: &str) -> bool {
     /// Crates that it needs, those of the compiler, and folders that cargo keeps for itself.
-    const TAKEN: [&str; 14] = [
+    const TAKEN: [&str; 13] = [
         "ulna",
         "ulna_codegen",
-        "criterion",
         "control_loop",
         "alloc",
         "core",
@@ -176,7 +175,10 @@ fn dependency(checkout: Option<&Path>, package: &str, folder: &str) -> anyhow::R
         );
     }
     let Some(path) = path.to_str() else {
-        bail!("{}: a manifest can only hold a path in UTF-8", path.display());
+        bail!(
+            "{}: a manifest can only hold a path in UTF-8",
+            path.display()
+        );
     };
     // A string of JSON is one of TOML, but for a character that no path should have.
     let path = serde_json::to_string(path)?.replace('\u{7f}', "\\u007f");

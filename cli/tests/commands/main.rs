@@ -7,6 +7,7 @@ mod cost;
 mod generate;
 mod help;
 mod methods;
+mod new;
 mod reproduce;
 mod support;
 mod verify;

@@ -16,8 +16,8 @@ mod validate;
 mod written;
 
 pub use description::Description;
-pub use name::{is_keyword, name_for};
 pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
+pub use name::{is_keyword, name_for};
 
 use std::path::Path;
 

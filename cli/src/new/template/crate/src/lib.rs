@@ -1,7 +1,5 @@
 //! The arm of `arms/my_arm.toml`: `MyArm`, which implements `ulna::Arm` and `ulna::ArmBatch`, written by the build script.
 
-include!(concat!(env!("OUT_DIR"), "/my_arm.rs"));
-
 /// How many joints it has.
 pub const N: usize = MyArm::CHAIN.joints.len();
 
@@ -9,3 +7,6 @@ pub const N: usize = MyArm::CHAIN.joints.len();
 pub fn arm() -> MyArm {
     Default::default()
 }
+
+// Last, because its own tests stand at its end.
+include!(concat!(env!("OUT_DIR"), "/my_arm.rs"));

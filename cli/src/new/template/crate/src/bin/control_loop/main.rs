@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut plant = Plant::new(&arm, plan.state(0.0).q - travel * 0.01);
     let mut last = SVector::<f64, N>::zeros();
 
-    println!("{N} joints, along the plan within {duration} s:");
+    println!("joints: {N}, along the plan within {duration} s");
     println!("time, s  off plan, rad or m  torque, N m or N  status");
     let cycles = (1.25 * duration / PERIOD).round() as u32;
     for cycle in 0..=cycles {

@@ -30,7 +30,10 @@ pub fn plan(
             _ => duration *= 2.0,
         }
     }
-    Err("the drives do not carry the arm along this way, however slowly: choose another one in plan.rs".into())
+    Err(format!(
+        "the drives do not carry the arm along this way within {LONGEST} s: choose another one in plan.rs"
+    )
+    .into())
 }
 
 /// A position of a joint: 0 to 1 along a radian, or a quarter of a metre, or as much of it as its limits leave.
@@ -47,9 +50,13 @@ fn on_the_way(joint: &Joint, share: f64) -> f64 {
 }
 
 fn is_within_rated_torques(arm: &dyn Arm<N>, plan: &PointToPoint<N>) -> bool {
+    let most = arm.rated_torque() * SHARE;
     (0..=100).all(|i| {
         let state = plan.state(plan.duration() * f64::from(i) / 100.0);
         let torque = arm.inverse_dynamics(&state.q, &state.qd, &state.qdd);
-        torque.abs() <= arm.rated_torque() * SHARE
+        torque
+            .iter()
+            .zip(&most)
+            .all(|(torque, most)| torque.abs() <= *most)
     })
 }
