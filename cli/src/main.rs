@@ -10,6 +10,7 @@ mod check;
 mod columns;
 mod completions;
 mod console;
+mod convert;
 mod cost;
 mod figures;
 mod generate;
@@ -55,6 +56,7 @@ enum Command {
     Campaign(campaign::Arguments),
     New(new::Arguments),
     Check(check::Arguments),
+    Convert(convert::Arguments),
     Generate(generate::Arguments),
     Verify(verify::Arguments),
     Cost(cost::Arguments),
@@ -80,6 +82,7 @@ impl Command {
             Self::Campaign(arguments) => campaign::run(&arguments, out),
             Self::New(arguments) => new::run(&arguments),
             Self::Check(arguments) => check::run(&arguments, out),
+            Self::Convert(arguments) => convert::run(&arguments, out),
             Self::Generate(arguments) => generate::run(&arguments, out),
             Self::Verify(arguments) => verify::run(&arguments, out),
             Self::Cost(arguments) => cost::run(&arguments, out),

@@ -49,9 +49,7 @@ pub use diagnostics::TableErrors;
 pub use format::reference;
 #[doc(hidden)]
 pub use format::{ANGLE_UNIT, RATED_TORQUE};
+pub use model::{Description, ImpossibleInertia, Model, TableText, impossible_inertia, name_for};
 #[doc(hidden)]
-pub use model::is_keyword;
-pub use model::{Description, Model, name_for};
-#[doc(hidden)]
-pub use table::AngleUnit;
-pub use table::Convention;
+pub use model::{is_keyword, shortest};
+pub use table::{AngleUnit, Convention};

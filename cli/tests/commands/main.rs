@@ -3,6 +3,7 @@
 mod assess;
 mod campaign;
 mod check;
+mod convert;
 mod cost;
 mod generate;
 mod help;
