@@ -1,7 +1,9 @@
-//! `ulna cost`: what an arm's code costs.
+//! `ulna cost`: what arms' code costs.
 
-use std::io::Write;
-use std::path::PathBuf;
+mod several;
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
@@ -15,46 +17,46 @@ use ulna_table::Model;
 use crate::methods::Methods;
 use crate::{Verdict, base_parameters, console};
 
-/// Count the operations of an arm's code
+/// Count the operations of an arm's code, or of several arms' side by side
 #[derive(Args)]
 #[command(
     after_help = "Examples:\n  ulna cost arms/ssrms.toml\n  ulna cost arms/ssrms.toml --json\n  \
+                  ulna cost arms/ssrms.toml arms/oblique_6.toml\n  \
                   ulna cost arms/ssrms.toml --base-parameters"
 )]
 pub(crate) struct Arguments {
-    /// The arm's table (TOML)
-    table: PathBuf,
+    /// Arm tables (TOML)
+    #[arg(required = true, value_name = "TABLE")]
+    tables: Vec<PathBuf>,
     #[command(flatten)]
     methods: Methods,
-    /// Print JSON: the operations of each method of the trait Arm
+    /// Print JSON: the operations of each method of the trait Arm; for several arms a list of that
     #[arg(long)]
     json: bool,
-    /// Print the arm's base (minimal) inertial parameters instead, and what is grouped into each
+    /// Print the base (minimal) inertial parameters instead, and what is grouped into each
     #[arg(long)]
     base_parameters: bool,
 }
 
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
-    let model = console::load(&arguments.table)?;
-    if arguments.base_parameters {
-        base_parameters::print(&model, arguments.json, out)?;
-        return Ok(Verdict::Pass);
-    }
-    let start = Instant::now();
-    let generator = arguments.methods.generator();
-    let generated = generator.generate(&model, &arguments.table.display().to_string());
-    console::warnings(&arguments.table, generated.warnings());
-    let lines = generated.source().lines().count();
-    let seconds = start.elapsed().as_secs_f64();
-    if arguments.json {
-        writeln!(out, "{:#}", json(&model, &generated))?;
+    let Some(models) = models(&arguments.tables) else {
+        return Ok(Verdict::Fail);
+    };
+    if arguments.base_parameters && arguments.json {
+        print(models.iter().map(base_parameters::json).collect(), out)?;
+    } else if arguments.base_parameters {
+        for model in &models {
+            base_parameters::write(model, out)?;
+        }
+    } else if arguments.json {
+        let arms = arguments.tables.iter().zip(&models);
+        let costs = arms.map(|(table, model)| json(model, &generate(arguments, table, model)));
+        print(costs.collect(), out)?;
     } else {
-        writeln!(
-            out,
-            "{}: {lines} lines, generated in {seconds:.3} s",
-            model.name()
-        )?;
-        writeln!(out, "{}", table(&generated))?;
+        match (&*arguments.tables, &*models) {
+            ([table], [model]) => write(arguments, table, model, out)?,
+            (tables, models) => several::write(arguments, tables, models, out)?,
+        }
         let absent: Vec<&str> = arguments
             .methods
             .absent()
@@ -66,6 +68,48 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         }
     }
     Ok(Verdict::Pass)
+}
+
+/// What is in the tables; none if one has errors, after those of all of them have been reported.
+fn models(tables: &[PathBuf]) -> Option<Vec<Model>> {
+    let models = tables.iter().map(|table| {
+        console::load(table)
+            .map_err(|errors| console::report(&errors))
+            .ok()
+    });
+    // All of them are read, whatever is wrong with the first.
+    let models: Vec<_> = models.collect();
+    models.into_iter().collect()
+}
+
+fn generate(arguments: &Arguments, table: &Path, model: &Model) -> Generated {
+    let generator = arguments.methods.generator();
+    let generated = generator.generate(model, &table.display().to_string());
+    console::warnings(table, generated.warnings());
+    generated
+}
+
+/// What was asked of one arm, or a list for several.
+fn print(mut values: Vec<Value>, out: &mut dyn Write) -> io::Result<()> {
+    let value = match values.len() {
+        1 => values.remove(0),
+        _ => values.into(),
+    };
+    writeln!(out, "{value:#}")
+}
+
+/// One arm, with each kind of operation.
+fn write(arguments: &Arguments, path: &Path, model: &Model, out: &mut dyn Write) -> io::Result<()> {
+    let start = Instant::now();
+    let generated = generate(arguments, path, model);
+    let lines = generated.source().lines().count();
+    let seconds = start.elapsed().as_secs_f64();
+    writeln!(
+        out,
+        "{}: {lines} lines, generated in {seconds:.3} s",
+        model.name()
+    )?;
+    writeln!(out, "{}", table(&generated))
 }
 
 fn json(model: &Model, generated: &Generated) -> Value {
