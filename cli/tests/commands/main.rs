@@ -4,6 +4,7 @@ mod assess;
 mod by_table;
 mod campaign;
 mod check;
+mod convert;
 mod cost;
 mod generate;
 mod help;
