@@ -81,36 +81,40 @@ fn every_table_has_its_features() {
     let wanted = |of: &dyn Fn(&String) -> Value| -> BTreeMap<String, Value> {
         arms.iter().map(|arm| (arm.clone(), of(arm))).collect()
     };
-    assert_features(
-        "generated/Cargo.toml",
-        &declared("ulna-generated", &["all", "default"]),
-        &wanted(&|_| json!([])),
-    );
-    assert_features(
-        "cli/Cargo.toml",
-        &declared("ulna-cli", &["all-arms"]),
-        &wanted(&|arm| json!([format!("ulna-generated/{arm}")])),
+    let faults = [
+        features_to_change(
+            "generated/Cargo.toml",
+            &declared("ulna-generated", &["all", "default"]),
+            &wanted(&|_| json!([])),
+        ),
+        features_to_change(
+            "cli/Cargo.toml",
+            &declared("ulna-cli", &["all-arms"]),
+            &wanted(&|arm| json!([format!("ulna-generated/{arm}")])),
+        ),
+    ]
+    .concat();
+    assert!(
+        faults.is_empty(),
+        "features are not those of the tables in arms/{faults}"
     );
 }
 
-#[track_caller]
-fn assert_features(
+/// A line for each feature that is missing or has no table.
+fn features_to_change(
     manifest: &str,
     found: &BTreeMap<String, Value>,
     wanted: &BTreeMap<String, Value>,
-) {
-    let line = |(name, value): (&String, &Value)| format!("\n    {name} = {value}");
+) -> String {
     let missing = wanted
         .iter()
-        .filter(|(name, value)| found.get(*name) != Some(value));
-    let missing: String = missing.map(line).collect();
-    let beyond = found.iter().filter(|(name, _)| !wanted.contains_key(*name));
-    let beyond: String = beyond.map(line).collect();
-    assert!(
-        missing.is_empty() && beyond.is_empty(),
-        "[features] of {manifest} are not those of the tables in arms/\n\
-         to be written:{missing}\nwithout a table, to be taken out:{beyond}"
-    );
+        .filter(|(name, value)| found.get(*name) != Some(value))
+        .map(|(name, value)| format!("\n{manifest}: write {name} = {value}"));
+    let beyond = found
+        .keys()
+        .filter(|name| !wanted.contains_key(*name))
+        .map(|name| format!("\n{manifest}: take out {name}, which has no table"));
+    missing.chain(beyond).collect()
 }
 
 /// Without square roots and sines from anywhere, one message says what to write.
