@@ -3,6 +3,9 @@
 from robots.comparison import QUANTITIES
 from robots.trial import SAMPLES, STATES, TOLERANCE
 
+# So much of what is said of a description is shown.
+LINES = 30
+
 
 def page(trials, versions, pinocchio):
     good = [trial for trial in trials if trial.passed]
@@ -67,7 +70,15 @@ def said(trials):
     for words, alike in groups.items():
         if words:
             yield "\n".join(f"`{trial.wheel}: {trial.title}`" + (f": {trial.why}" if trial.why else "") + "  " for trial in alike)
-            yield f"```text\n{words}\n```"
+            yield f"```text\n{shortened(words)}\n```"
+
+
+def shortened(words):
+    """A humanoid has dozens of chains, and each is listed."""
+    lines = words.splitlines()
+    if len(lines) <= LINES:
+        return words
+    return "\n".join([*lines[: LINES - 1], f"(and {len(lines) - LINES + 1} more lines)"])
 
 
 def failure(trial):

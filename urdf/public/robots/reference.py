@@ -12,24 +12,22 @@ SMOOTHING = 1e-3
 
 
 class Reference:
-    """The joints named `joints`, all others held at 0, or at their offset if they mimic one that is; the frame of the link `base` as world,
-    that of the link `tip` as tool, gravity along the base's -z. What hangs on the links of `dropped` is left out."""
+    """The joints between the links `base` and `tip` that move and mimic no other; all others held at 0, or where what they mimic puts them.
+    The base's frame is the world, the tip's the tool, gravity is along the base's -z. The links of `dropped` are left out, with all on them."""
 
-    def __init__(self, description: str, base, tip, joints, dropped=()):
+    def __init__(self, description: bytes, base, tip, dropped=()):
         robot = ElementTree.fromstring(description)
         for link in dropped:
             prune(robot, link)
-        self.joints = [next(joint for joint in robot.iter("joint") if joint.get("name") == name) for name in joints]
+        self.joints = [joint for joint in path(robot, base, tip) if joint.get("type") != "fixed" and joint.find("mimic") is None]
+        self.names = [joint.get("name") for joint in self.joints]
+        rename_links(robot)
         whole = pin.buildModelFromXML(ElementTree.tostring(robot, encoding="unicode"))
-        for name in joints:
-            if not whole.existJointName(name):
-                raise ValueError(f"Pinocchio knows no joint {name}")
-        held = [number for number in range(1, whole.njoints) if whole.names[number] not in joints]
+        held = [number for number in range(1, whole.njoints) if whole.names[number] not in self.names]
         self.model = pin.buildReducedModel(whole, held, rest(whole, robot))
-        # q of ours are the joints in the order of the chain.
-        if [self.model.names[number] for number in range(1, self.model.njoints)] != list(joints):
-            raise ValueError(f"Pinocchio's order is {list(self.model.names)[1:]}, the table's {list(joints)}")
-        self.base, self.tip = (frame(self.model, link) for link in (base, tip))
+        if list(self.model.names)[1:] != self.names:
+            raise ValueError(f"Pinocchio's order is {list(self.model.names)[1:]}, the chain's {self.names}")
+        self.base, self.tip = (frame(self.model, f"link {name}") for name in (base, tip))
         data = self.model.createData()
         pin.framesForwardKinematics(self.model, data, pin.neutral(self.model))
         self.world_from_base = data.oMf[self.base].copy()
@@ -68,16 +66,42 @@ class Reference:
         return states
 
 
+def path(robot, base, tip):
+    """The joints from one link out to another."""
+    above = {joint.find("child").get("link"): joint for joint in robot.findall("joint")}
+    joints = []
+    while tip != base:
+        if tip not in above:
+            raise ValueError(f"no joints lead from {base} to {tip}")
+        joints.append(above[tip])
+        tip = above[tip].find("parent").get("link")
+    return joints[::-1]
+
+
+def rename_links(robot):
+    """A joint may be called as a link is; Pinocchio takes both for frames, and cannot tell them apart."""
+    for link in robot.findall("link"):
+        link.set("name", f"link {link.get('name')}")
+    for joint in robot.findall("joint"):
+        for end in (joint.find("parent"), joint.find("child")):
+            end.set("link", f"link {end.get('link')}")
+
+
 def rest(model, robot):
-    """Every joint at 0. One that mimics another is where the other's 0 puts it, at its offset."""
-    q = pin.neutral(model)
-    for joint in robot.iter("joint"):
-        mimic = joint.find("mimic")
-        if mimic is not None and model.existJointName(joint.get("name")):
-            v = np.zeros(model.nv)
-            v[model.joints[model.getJointId(joint.get("name"))].idx_v] = float(mimic.get("offset", 0.0))
-            q = pin.integrate(model, q, v)
-    return q
+    """Every joint at 0. One that mimics another is where the other's place puts it."""
+    mimics = {joint.get("name"): joint.find("mimic") for joint in robot.findall("joint")}
+
+    def coordinate(name, depth=0):
+        mimic = mimics.get(name)
+        if mimic is None or depth > len(mimics):
+            return 0.0
+        return float(mimic.get("multiplier", 1.0)) * coordinate(mimic.get("joint"), depth + 1) + float(mimic.get("offset", 0.0))
+
+    v = np.zeros(model.nv)
+    for number in range(1, model.njoints):
+        if model.joints[number].nv == 1:
+            v[model.joints[number].idx_v] = coordinate(model.names[number])
+    return pin.integrate(model, pin.neutral(model), v)
 
 
 def frame(model, link):
@@ -88,12 +112,12 @@ def frame(model, link):
 
 def prune(robot, link):
     """Takes out a link, the joint that it hangs on, and all beyond it."""
-    for joint in list(robot.findall("joint")):
+    for joint in robot.findall("joint"):
         if joint.find("child").get("link") == link:
             robot.remove(joint)
         elif joint.find("parent").get("link") == link:
             prune(robot, joint.find("child").get("link"))
-    for found in list(robot.findall("link")):
+    for found in robot.findall("link"):
         if found.get("name") == link:
             robot.remove(found)
 

@@ -102,9 +102,8 @@ def compare(programs, folder: Path, path: Path, trial: Trial):
     table = tomllib.loads(text)
     trial.joints = len(table["joint"])
     trial.base, trial.tip = ends(text, trial.options)
-    names = [row["name"] for row in table["joint"]]
     dropped = [link for option, link in zip(trial.options, trial.options[1:]) if option == "--drop"]
-    reference = Reference((folder / trial.file).read_text(), trial.base, trial.tip, names, dropped)
+    reference = Reference((folder / trial.file).read_bytes(), trial.base, trial.tip, dropped)
     states = reference.states(STATES)
     ours = programs.evaluate(path, states)
     theirs = [reference.values(*state) for state in states]
@@ -115,18 +114,24 @@ def compare(programs, folder: Path, path: Path, trial: Trial):
 
 
 def ends(text, options):
-    """Base and tip of the chain: the table's first lines name them."""
+    """Base and tip of the chain: the table's first comments name them."""
+    world, tool = (re.search(rf"^# .*{what}: the frame of the link `(.+?)`", text, re.MULTILINE) for what in ("World", "Tool"))
     given = dict(zip(options[::2], options[1::2]))
-    found = re.search(r"^#.*from [`'\"](.+?)[`'\"] to [`'\"](.+?)[`'\"]", text, re.MULTILINE)
-    base, tip = found.groups() if found else (None, None)
-    return given.get("--base", base), given.get("--tip", tip)
+    for option, found in (("--base", world), ("--tip", tool)):
+        if given.get(option, found[1]) != found[1]:
+            raise ValueError(f"{option} is {given[option]}, the table's is {found[1]}")
+    return world[1], tool[1]
 
 
 def lost(table, joints):
     """What the table says otherwise than the description does."""
+    if len(table["joint"]) != len(joints):
+        yield f"{len(table['joint'])} joints, {len(joints)} in the description"
     unit = 3.141592653589793 / 180.0 if table["angle_unit"] == "deg" else 1.0
     for row, joint in zip(table["joint"], joints):
         turns = row.get("kind", "revolute") == "revolute"
+        if row["name"] != re.sub("[^A-Za-z0-9_]+", "_", joint.get("name")):
+            yield f"{joint.get('name')} has become {row['name']}"
         if turns != (joint.get("type") != "prismatic"):
             yield f"{row['name']} is {joint.get('type')}"
         scale = unit if turns else 1.0
