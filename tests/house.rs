@@ -8,6 +8,7 @@ use serde_json::Value;
 const ARROWS: &[(&str, &[&str])] = &[
     ("ulna", &[]),
     ("ulna-table", &["ulna"]),
+    ("ulna-urdf", &["ulna", "ulna-table"]),
     ("ulna-codegen", &["ulna", "ulna-table"]),
     ("ulna-macros", &["ulna-codegen", "ulna-table"]),
     ("ulna-generated", &["ulna", "ulna-codegen"]),
@@ -20,6 +21,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ulna-generated",
             "ulna-study",
             "ulna-table",
+            "ulna-urdf",
         ],
     ),
 ];

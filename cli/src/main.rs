@@ -10,10 +10,12 @@ mod check;
 mod columns;
 mod completions;
 mod console;
+mod convert;
 mod cost;
 mod figures;
 mod generate;
 mod help;
+mod import;
 mod joints;
 mod man;
 mod methods;
@@ -53,6 +55,8 @@ enum Command {
     Assess(assess::Arguments),
     Campaign(campaign::Arguments),
     Check(check::Arguments),
+    Import(import::Arguments),
+    Convert(convert::Arguments),
     Generate(generate::Arguments),
     Verify(verify::Arguments),
     Cost(cost::Arguments),
@@ -77,6 +81,8 @@ impl Command {
             Self::Assess(arguments) => assess::run(&arguments, out),
             Self::Campaign(arguments) => campaign::run(&arguments, out),
             Self::Check(arguments) => check::run(&arguments, out),
+            Self::Import(arguments) => import::run(&arguments, out),
+            Self::Convert(arguments) => convert::run(&arguments, out),
             Self::Generate(arguments) => generate::run(&arguments, out),
             Self::Verify(arguments) => verify::run(&arguments, out),
             Self::Cost(arguments) => cost::run(&arguments, out),

@@ -9,6 +9,12 @@ use crate::{Joint, JointKind};
 /// stay positive while that share is well above the rounding: N + 20 units or so of 1.1e-16.
 pub const LEAST_SHARE: f64 = 1e-13;
 
+/// Share of the largest principal moment that counts as rounding in an inertia tensor.
+pub const MOMENT_ROUNDING: f64 = 1e-12;
+/// Share of the largest principal moment by which the triangle inequality may be missed:
+/// moments are printed to three or four digits, and a plate or a thin rod meets it with equality.
+pub const TRIANGLE_TOLERANCE: f64 = 1e-3;
+
 /// What a link has of what its joint carries at its farthest, kg·m² (kg for a prismatic joint).
 #[derive(Clone, Copy, Debug)]
 pub struct Share {

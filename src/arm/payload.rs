@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::bounds::Share;
+use super::bounds::{MOMENT_ROUNDING, Share, TRIANGLE_TOLERANCE};
 use super::description::{Link, Placement};
 use super::parameters::Parameter;
 use crate::{Real, SerialChain};
@@ -65,10 +65,6 @@ impl Payload {
     /// # Errors
     /// What no rigid body can have.
     pub fn new(mass: f64, com: [f64; 3], inertia: [[f64; 3]; 3]) -> Result<Self, PayloadError> {
-        /// Shares of the largest moment that count as rounding, and as the rounding of a printed number.
-        const ROUNDING: f64 = 1e-12;
-        const TRIANGLE_TOLERANCE: f64 = 1e-3;
-
         if !(0.0..=Self::MAX_MASS).contains(&mass) {
             return Err(PayloadError::Mass(mass));
         }
@@ -83,13 +79,13 @@ impl Payload {
                 inertia[2][2],
             ]));
         }
-        if (tensor - tensor.transpose()).amax() > ROUNDING * tensor.amax() {
+        if (tensor - tensor.transpose()).amax() > MOMENT_ROUNDING * tensor.amax() {
             return Err(PayloadError::Unsymmetric(inertia));
         }
         let moments = tensor.symmetric_eigenvalues();
         let (least, largest) = (moments.min(), moments.max());
         let middle = moments.sum() - least - largest;
-        let is_rigid = least >= -ROUNDING * largest.abs()
+        let is_rigid = least >= -MOMENT_ROUNDING * largest.abs()
             && least + middle >= largest * (1.0 - TRIANGLE_TOLERANCE);
         if !is_rigid || (mass == 0.0 && largest > 0.0) {
             return Err(PayloadError::Inertia([least, middle, largest]));

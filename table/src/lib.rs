@@ -49,7 +49,9 @@ pub use diagnostics::TableErrors;
 pub use format::reference;
 #[doc(hidden)]
 pub use format::{ANGLE_UNIT, RATED_TORQUE};
-pub use model::{Description, Model};
 #[doc(hidden)]
-pub use table::AngleUnit;
-pub use table::Convention;
+pub use model::shortest;
+pub use model::{Description, ImpossibleInertia, Model, TableText, impossible_inertia};
+#[doc(hidden)]
+pub use model::{arm_name, joint_name};
+pub use table::{AngleUnit, Convention};

@@ -6,11 +6,11 @@
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::format;
 use crate::model::is_word;
-use crate::toml_reader::{self, ARM_TABLE, Fields, Key, Located, Value};
+use crate::toml_reader::{self, ARM_TABLE, Choice, Fields, Key, Located, Value};
 use ulna::{JointKind, TaskRow};
 
 /// Who wrote a table's text. A program gives rotations as matrices and angles in radians, and has no file to mend.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Author {
     /// Somebody with an editor.
     Person,
@@ -62,7 +62,7 @@ pub enum Convention {
 }
 
 /// The unit of every angle in a table.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AngleUnit {
     /// 1 is π/180 rad.
     Degrees,
@@ -75,6 +75,14 @@ impl AngleUnit {
     pub fn read(fields: &mut Fields<'_>) -> Option<Self> {
         let unit = fields.value(&format::ANGLE_UNIT)?.choice()?;
         Some(unit.value)
+    }
+
+    /// As a table names it.
+    pub(crate) fn word(self) -> &'static str {
+        let mut words = Self::WORDS.iter();
+        words
+            .find(|word| word.value == self)
+            .map_or("", |word| word.word)
     }
 }
 
@@ -136,6 +144,8 @@ pub(crate) struct LinkTable {
     pub(crate) mass: Option<Located<f64>>,
     pub(crate) com: Option<Vector>,
     pub(crate) inertia: Option<Located<InertiaTable>>,
+    /// Whether an inertia that no body can have is meant.
+    pub(crate) accept_inertia: Option<Located<bool>>,
 }
 
 /// The six numbers of an inertia tensor.
@@ -332,6 +342,7 @@ fn read_link(fields: &mut Fields<'_>, owner: &str) -> LinkTable {
             let value = inertia.table(&format!("the inertia of {owner}"), read_inertia)?;
             Some(place.map(|()| value))
         }),
+        accept_inertia: fields.value(&format::ACCEPT_INERTIA).and_then(Value::flag),
     }
 }
 

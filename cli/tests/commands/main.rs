@@ -3,9 +3,11 @@
 mod assess;
 mod campaign;
 mod check;
+mod convert;
 mod cost;
 mod generate;
 mod help;
+mod import;
 mod methods;
 mod reproduce;
 mod support;

@@ -1,9 +1,10 @@
 //! What the numbers of an arm's table may be. Generous: 100 m of link, the gravity of the Sun.
 
 use crate::toml_reader::Bound;
+use ulna::Payload;
 
 pub(super) static LENGTH: Bound = Bound {
-    range: -100.0..=100.0,
+    range: -Payload::MAX_DISTANCE..=Payload::MAX_DISTANCE,
     unit: "m",
     help: "lengths are in metres",
 };
@@ -13,12 +14,12 @@ pub(super) static BASE_LENGTH: Bound = Bound {
     help: "lengths are in metres",
 };
 pub(super) static MASS: Bound = Bound {
-    range: 1e-6..=1e6,
+    range: 1e-6..=Payload::MAX_MASS,
     unit: "kg",
     help: "masses are positive and in kilograms",
 };
 pub(super) static MOMENT: Bound = Bound {
-    range: -1e9..=1e9,
+    range: -Payload::MAX_MOMENT..=Payload::MAX_MOMENT,
     unit: "kg m^2",
     help: "inertias are in kg m^2, about the centroid",
 };

@@ -88,7 +88,7 @@ static LINK_SECTION: Section = Section {
     header: "[joint.link]",
     meaning: "Once below each `[[joint]]`: the rigid body that moves with it",
     example: "[joint.link]\nmass = 2.5\ncom = [0.0, 0.0, 0.1]\ninertia = { xx = 0.02, yy = 0.02, zz = 0.01, xy = 0.0, xz = 0.0, yz = 0.0 }\n",
-    keys: &[&MASS, &COM, &INERTIA],
+    keys: &[&MASS, &COM, &INERTIA, &ACCEPT_INERTIA],
 };
 pub(crate) static MASS: Key = Key::required(
     "mass",
@@ -110,6 +110,15 @@ pub(crate) static INERTIA: Key = Key::required(
     "The inertia tensor about the centroid, in the axes of this row's frame",
     "`inertia = { xx = 1.0, yy = 1.0, zz = 1.0 }`",
 );
+
+pub(crate) static ACCEPT_INERTIA: Key = Key::required(
+    "accept_inertia",
+    Kind::Flag,
+    "With `true` an inertia that no rigid body can have is taken over as it is, with a warning. For identified sets, whose \
+     parameters give the right torques without being those of a body",
+    "`accept_inertia = true`",
+)
+.need(Need::Default(|| "false".to_owned()));
 
 static INERTIA_SECTION: Section = Section {
     header: "inertia = { }",

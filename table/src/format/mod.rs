@@ -12,8 +12,8 @@ pub(crate) use drive::{
     COULOMB, FRICTION, LIMITS, LOWER, MOTOR, RATIO, ROTOR, SMOOTHING, UPPER, VELOCITY, VISCOUS,
 };
 pub(crate) use joint::{
-    A, ALPHA, COM, D, DEFAULT_KIND, INERTIA, JOINT, JOINT_NAME, KIND, LINK, MASS, RATED, THETA, XX,
-    XY, XZ, YY, YZ, ZZ,
+    A, ACCEPT_INERTIA, ALPHA, COM, D, DEFAULT_KIND, INERTIA, JOINT, JOINT_NAME, KIND, LINK, MASS,
+    RATED, THETA, XX, XY, XZ, YY, YZ, ZZ,
 };
 
 use crate::table::{AngleUnit, ArmTable, Convention, RowSet};

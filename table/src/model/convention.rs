@@ -1,8 +1,33 @@
-//! Standard Denavit–Hartenberg rows, rewritten as modified ones.
+//! Standard Denavit–Hartenberg rows, rewritten as modified ones, and back.
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::Description;
+use crate::table::Convention;
 use ulna::{Angle, Joint, Link, Placement};
+
+impl Description {
+    /// The same arm with its rows in the convention `to`: the same motion of every link and of the tool, the same M, J and torques.
+    ///
+    /// Both forms exist for every chain, because base and tool take what a form has no place for: standard form has no a and α
+    /// before the first joint, modified form none behind the last. From modified to standard the first row's go into the
+    /// base, from standard to modified the last row's go into the tool. There and back leaves them there.
+    #[must_use]
+    pub fn in_convention(&self, to: Convention) -> Self {
+        let mut arm = self.clone();
+        match (self.convention, to) {
+            (Convention::Standard, Convention::Modified) => {
+                standard_to_modified(&mut arm.joints, &mut arm.tool);
+            }
+            (Convention::Modified, Convention::Standard) => {
+                modified_to_standard(&mut arm.joints, &mut arm.base);
+            }
+            _ => {}
+        }
+        arm.convention = to;
+        arm
+    }
+}
 
 /// Rewrites `joints` and `tool` of a chain in standard form, each joint's `a` and `alpha` being its own, in place.
 ///
@@ -14,37 +39,70 @@ pub(super) fn standard_to_modified(joints: &mut [Joint], tool: &mut Placement) {
     let mut before = (Angle::default(), 0.0);
     for joint in joints {
         let own = (joint.alpha, joint.a);
-        joint.link = carried(joint.link, own);
+        joint.link = before_shift(joint.link, own);
         (joint.alpha, joint.a) = before;
         before = own;
     }
-    *tool = placed(*tool, before);
+    *tool = product(&shift(before), tool);
+}
+
+/// The other way: the first row's `a`, `alpha` go into the base, and each row takes those of the next.
+fn modified_to_standard(joints: &mut [Joint], base: &mut Placement) {
+    let mut after = (Angle::default(), 0.0);
+    for joint in joints.iter_mut().rev() {
+        joint.link = behind_shift(joint.link, after);
+        let own = (joint.alpha, joint.a);
+        (joint.alpha, joint.a) = after;
+        after = own;
+    }
+    *base = product(base, &shift(after));
 }
 
 /// `link` in the frame from which `Tx(a)Rx(alpha)` leads to the one that it is given in.
-fn carried(link: Link, (alpha, a): (Angle, f64)) -> Link {
+fn before_shift(link: Link, (alpha, a): (Angle, f64)) -> Link {
     let rotation = rotation_x(alpha);
-    let inertia = rotation * Matrix3::from(link.inertia).transpose() * rotation.transpose();
     Link {
         mass: link.mass,
-        com: translated(rotation, link.com, a),
-        // The upper triangle twice: rounding must not make the tensor unsymmetric.
-        inertia: rows(Matrix3::from_fn(|i, j| inertia[(i.min(j), i.max(j))])),
+        com: clean(rotation * Vector3::from(link.com) + Vector3::new(a, 0.0, 0.0)),
+        inertia: turned(rotation, link.inertia),
     }
 }
 
-/// `Tx(a) Rx(alpha)` times `placement`.
-fn placed(placement: Placement, (alpha, a): (Angle, f64)) -> Placement {
-    let rotation = rotation_x(alpha);
+/// `link` in the frame to which `Tx(a)Rx(alpha)` leads from the one that it is given in.
+fn behind_shift(link: Link, (alpha, a): (Angle, f64)) -> Link {
+    let rotation = rotation_x(alpha).transpose();
+    Link {
+        mass: link.mass,
+        com: clean(rotation * (Vector3::from(link.com) - Vector3::new(a, 0.0, 0.0))),
+        inertia: turned(rotation, link.inertia),
+    }
+}
+
+fn turned(rotation: Matrix3<f64>, inertia: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let inertia = rotation * Matrix3::from(inertia).transpose() * rotation.transpose();
+    // The upper triangle twice: rounding must not make the tensor unsymmetric.
+    rows(Matrix3::from_fn(|i, j| inertia[(i.min(j), i.max(j))]))
+}
+
+/// `Tx(a) Rx(alpha)`.
+fn shift((alpha, a): (Angle, f64)) -> Placement {
     Placement {
-        rotation: rows(rotation * Matrix3::from(placement.rotation).transpose()),
-        translation: translated(rotation, placement.translation, a),
+        rotation: rows(rotation_x(alpha)),
+        translation: [a, 0.0, 0.0],
     }
 }
 
-fn translated(rotation: Matrix3<f64>, point: [f64; 3], a: f64) -> [f64; 3] {
-    let point = rotation * Vector3::from(point) + Vector3::new(a, 0.0, 0.0);
-    // Adding 0 turns -0 into 0, so that an exact turn leaves clean numbers.
+fn product(first: &Placement, second: &Placement) -> Placement {
+    let rotation = Matrix3::from(first.rotation).transpose();
+    let point = rotation * Vector3::from(second.translation) + Vector3::from(first.translation);
+    Placement {
+        rotation: rows(rotation * Matrix3::from(second.rotation).transpose()),
+        translation: clean(point),
+    }
+}
+
+/// Adding 0 turns -0 into 0, so that an exact turn leaves clean numbers.
+fn clean(point: Vector3<f64>) -> [f64; 3] {
     [point.x + 0.0, point.y + 0.0, point.z + 0.0]
 }
 

@@ -2,7 +2,7 @@
 
 use super::Model;
 use super::joint_names::numbered;
-use super::written::Written;
+use super::written::TableText;
 use crate::diagnostics::{Diagnostic, Diagnostics, Sink, TableErrors};
 use crate::table::{ArmTable, Author, Convention, InertiaTable};
 use crate::toml_reader::Located;
@@ -49,6 +49,8 @@ pub struct Description {
     pub joints: Vec<Joint>,
     /// The joints' names, base first, where they have any; those left out at the end have none.
     pub joint_names: Vec<Option<String>>,
+    /// Whether a link's inertia is taken over although no rigid body can have it, base first; those left out at the end are not.
+    pub accept_inertia: Vec<bool>,
 }
 
 impl Model {
@@ -70,7 +72,7 @@ impl Model {
     /// # Errors
     /// Everything that is wrong with the description, at once.
     pub fn lint_description(description: &Description) -> Result<(Self, Diagnostics), TableErrors> {
-        let text = Written(description).to_string();
+        let text = TableText::of_program(description).to_string();
         let source_name = match super::name::check(&description.name) {
             Ok(()) => format!("the description of {}", description.name),
             Err(_) => "the description".to_owned(),
@@ -93,6 +95,7 @@ impl Model {
             payload: self.payload,
             joints: self.joints.clone(),
             joint_names: self.given_names(),
+            accept_inertia: self.accept_inertia.clone(),
         }
     }
 }

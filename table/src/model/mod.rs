@@ -6,8 +6,10 @@
 
 mod angle;
 mod convention;
+mod definite;
 mod description;
 mod drive;
+mod inertia;
 mod joint_names;
 mod light;
 mod name;
@@ -16,7 +18,11 @@ mod validate;
 mod written;
 
 pub use description::Description;
+pub use inertia::{ImpossibleInertia, impossible_inertia};
+pub use joint_names::joint_name;
 pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
+pub use name::arm_name;
+pub use written::{TableText, shortest};
 
 use std::path::Path;
 
@@ -24,7 +30,7 @@ use sha2::{Digest, Sha256};
 use ulna::{Joint, Placement, TaskRows};
 
 use crate::diagnostics::{Diagnostics, Sink, TableErrors};
-use crate::table::{ArmTable, Author};
+use crate::table::{AngleUnit, ArmTable, Author, Convention};
 use crate::toml_reader::read_file;
 
 /// A validated arm of any number of joints: read from a table, or made by a program from a [`Description`].
@@ -40,6 +46,9 @@ pub struct Model {
     payload: bool,
     joints: Vec<Joint>,
     joint_names: Vec<String>,
+    accept_inertia: Vec<bool>,
+    convention: Convention,
+    angle_unit: AngleUnit,
     table_hash: String,
 }
 
@@ -166,6 +175,21 @@ impl Model {
     /// What the joints are called, base first: by their names, or `joint 1` where the table gives none. No two are the same.
     pub fn joint_names(&self) -> &[String] {
         &self.joint_names
+    }
+
+    /// Whether a link's inertia was taken over although no rigid body can have it, base first: `accept_inertia` of a table.
+    pub fn accepts_inertia(&self) -> &[bool] {
+        &self.accept_inertia
+    }
+
+    /// The convention of the table; [`joints`](Self::joints) are in modified form.
+    pub fn convention(&self) -> Convention {
+        self.convention
+    }
+
+    /// The unit of the angles in the table; here they are in radians.
+    pub fn angle_unit(&self) -> AngleUnit {
+        self.angle_unit
     }
 
     /// SHA-256 of the table's text, hexadecimal; for a model made by a program, of the text that [`Model::new`] writes.

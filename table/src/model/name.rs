@@ -33,6 +33,14 @@ pub(super) fn check(name: &str) -> Result<(), (&'static str, String)> {
     }
 }
 
+/// `name`, if an arm can be called so, or else a name close to it that an arm can have.
+pub fn arm_name(name: &str) -> String {
+    match fault(name) {
+        None => name.to_owned(),
+        Some(_) => proposal(name),
+    }
+}
+
 fn fault(name: &str) -> Option<&'static str> {
     let listed = |list: &str, word: &str| list.split_whitespace().any(|listed| listed == word);
     if name.is_empty() {
@@ -101,6 +109,7 @@ mod tests {
             "my_arm",
         ] {
             assert_eq!(check(name), Ok(()), "{name}");
+            assert_eq!(arm_name(name), name);
         }
     }
 
@@ -131,7 +140,7 @@ mod tests {
         ];
         for (name, expected) in cases {
             assert!(check(name).is_err(), "{name}");
-            assert_eq!(proposal(name), expected, "{name}");
+            assert_eq!(arm_name(name), expected, "{name}");
             assert_eq!(check(expected), Ok(()), "{expected}");
         }
         assert!(check(&"a".repeat(65)).is_err());

@@ -1,29 +1,19 @@
 //! [`ArmTable`] → [`Model`]: units, physical bounds, names. The last stage that can fail on a user's input.
 
-use nalgebra::Matrix3;
-
 use super::angle::Angles;
-use super::convention::{rows, standard_to_modified};
+use super::convention::standard_to_modified;
+use super::definite::indefinite_at;
 use super::drive::drive;
+use super::inertia::inertia;
 use super::joint_names::joint_names;
 use super::light::{light_links, weight_of};
 use super::placement::placement;
 use super::{Model, name};
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::format;
-use crate::table::{
-    ArmTable, Convention, InertiaTable, JointTable, LinkTable, PlacementTable, Vector,
-};
+use crate::table::{ArmTable, Convention, JointTable, LinkTable, PlacementTable, Vector};
 use crate::toml_reader::{Key, Located};
 use ulna::{Joint, Link, Placement, TaskRow, TaskRows};
-
-/// Smallest principal moment, kg·m²: a body of a milligram and a millimetre.
-const LEAST_MOMENT: f64 = 1e-12;
-/// Share of the largest principal moment that counts as rounding when a tensor is tested for positive definiteness.
-const MOMENT_ROUNDING: f64 = 1e-12;
-/// Share of the largest principal moment by which the triangle inequality may be missed:
-/// tables are printed to three or four digits, and a plate or a thin rod meets it with equality.
-const TRIANGLE_TOLERANCE: f64 = 1e-3;
 
 impl ArmTable {
     /// The model, without its hash. `None` only if something has been reported to `sink`.
@@ -56,6 +46,7 @@ impl ArmTable {
         let base = place(self.base, &format::BASE_XYZ);
         let tool = place(self.tool, &format::TOOL_XYZ);
         let weights: Vec<_> = self.joints.iter().flatten().map(weight_of).collect();
+        let accepted: Vec<_> = self.joints.iter().flatten().map(accepted).collect();
         let joint_names = self
             .joints
             .as_ref()
@@ -74,6 +65,12 @@ impl ArmTable {
             light.into_iter().for_each(|error| sink.push(error));
             return None;
         }
+        if let Some(place) = accepted.iter().flatten().next()
+            && let Some(q) = indefinite_at(&joints)
+        {
+            sink.push(indefinite(place, &q));
+            return None;
+        }
         Some(Model {
             name: name?,
             gravity: gravity?,
@@ -83,9 +80,29 @@ impl ArmTable {
             payload: self.payload,
             joints,
             joint_names: joint_names?,
+            accept_inertia: accepted.iter().map(Option::is_some).collect(),
+            convention: self.convention?,
+            angle_unit: angles?.unit,
             table_hash: String::new(),
         })
     }
+}
+
+/// The place where a row accepts an inertia that no rigid body can have.
+fn accepted(row: &JointTable) -> Option<Located<()>> {
+    let accept = row.link.as_ref()?.accept_inertia.as_ref()?;
+    accept.value.then(|| accept.place())
+}
+
+fn indefinite(place: &Located<()>, q: &[f64]) -> Diagnostic {
+    let q: Vec<String> = q.iter().map(|q| format!("{q:.3}")).collect();
+    let message = format!(
+        "{} leaves the arm without a positive definite mass matrix",
+        place.name
+    );
+    Diagnostic::error(place.span.clone(), message)
+        .label(format!("at q = [{}]", q.join(", ")))
+        .help("its motion could not be computed there: correct the inertias that are accepted")
 }
 
 fn task_rows(
@@ -154,48 +171,12 @@ fn link(row: &LinkTable, sink: &Sink) -> Option<Link> {
         .com
         .as_ref()
         .and_then(|com| all_within(com, &format::COM, sink));
-    let inertia = row.inertia.as_ref().and_then(|row| inertia(row, sink));
+    let inertia = inertia(row, sink);
     Some(Link {
         mass: mass?,
         com: com?,
         inertia: inertia?,
     })
-}
-
-/// The tensor, if a rigid body can have it.
-fn inertia(row: &Located<InertiaTable>, sink: &Sink) -> Option<[[f64; 3]; 3]> {
-    let moments = all_within(&row.value.moments, &format::XX, sink);
-    let products = row.value.products.each_ref();
-    let products = products.map(|product| match product {
-        Some(product) => format::XY.admit(product, sink),
-        None => Some(0.0),
-    });
-    let [xx, yy, zz] = moments?;
-    let [xy, xz, yz] = all(products)?;
-    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-
-    let mut principal = tensor.symmetric_eigenvalues();
-    principal.as_mut_slice().sort_by(f64::total_cmp);
-    let [least, middle, largest] = principal.into();
-    let fault = if least <= largest * MOMENT_ROUNDING || least < LEAST_MOMENT {
-        "is not that of a rigid body: it must be positive definite"
-    } else if least + middle < largest * (1.0 - TRIANGLE_TOLERANCE) {
-        "is not that of a rigid body: no principal moment may exceed the sum of the other two"
-    } else {
-        return Some(rows(tensor));
-    };
-    let message = format!("{} {fault}", row.name);
-    sink.push(
-        Diagnostic::error(row.span.clone(), message)
-            .label(format!(
-                "principal moments {least:.4e}, {middle:.4e}, {largest:.4e}"
-            ))
-            .help(
-                "give the tensor about the centroid in the link's axes, \
-                 products with the tensor's sign: xy is -sum(m x y)",
-            ),
-    );
-    None
 }
 
 pub(super) fn all_within(numbers: &Vector, key: &Key, sink: &Sink) -> Option<[f64; 3]> {

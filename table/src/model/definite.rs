@@ -1,0 +1,143 @@
+//! Whether the mass matrix of an arm with an accepted inertia is positive definite.
+
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, Vector3};
+
+use ulna::{Angle, Joint, JointKind};
+
+/// Configurations that are tried.
+const SAMPLES: u32 = 200;
+
+/// A configuration at which M is not positive definite, of those tried: spread evenly over full turns, or over the arm's
+/// length where a joint slides.
+///
+/// Links that a rigid body can have make M positive definite everywhere. One inertia that none can have may not: its
+/// deficit may outweigh what the other links add.
+pub(super) fn indefinite_at(joints: &[Joint]) -> Option<Vec<f64>> {
+    let length: f64 = joints.iter().map(|joint| joint.a.hypot(joint.d)).sum();
+    let configuration = |sample: u32| -> Vec<f64> {
+        let coordinate = |(index, joint): (usize, &Joint)| {
+            let share = spread(sample, index) - 0.5;
+            match joint.kind {
+                JointKind::Revolute => share * std::f64::consts::TAU,
+                JointKind::Prismatic => share * length.max(1.0),
+            }
+        };
+        joints.iter().enumerate().map(coordinate).collect()
+    };
+    (0..SAMPLES)
+        .map(configuration)
+        .find(|q| !is_positive_definite(mass_matrix(joints, q)))
+}
+
+/// A number from 0 to 1 for each sample and coordinate, evenly spread: multiples of an irrational number of the coordinate's own.
+fn spread(sample: u32, coordinate: usize) -> f64 {
+    // Square roots of numbers that are not squares.
+    let irrational = (coordinate as f64 + 1.25).sqrt() * 0.754_877_666_246_693;
+    (0.5 + f64::from(sample) * irrational).fract()
+}
+
+/// M as the sum of each link's share, m Jvᵀ Jv + Jwᵀ I Jw (Siciliano et al., Robotics, 7.1.1), rows as vectors.
+fn mass_matrix(joints: &[Joint], q: &[f64]) -> Vec<Vec<f64>> {
+    let count = joints.len();
+    let mut mass = vec![vec![0.0; count]; count];
+    let mut frame = Isometry3::identity();
+    let mut axes: Vec<(JointKind, Vector3<f64>, Vector3<f64>)> = Vec::new();
+    for (joint, &coordinate) in joints.iter().zip(q) {
+        frame *= row(joint, coordinate);
+        let axis = frame.rotation * Vector3::z();
+        axes.push((joint.kind, axis, frame.translation.vector));
+        let link = &joint.link;
+        let centroid = frame * nalgebra::Point3::from(link.com);
+        let turn = frame.rotation.to_rotation_matrix().into_inner();
+        let inertia = turn * Matrix3::from_fn(|i, j| link.inertia[i][j]) * turn.transpose();
+        let columns: Vec<(Vector3<f64>, Vector3<f64>)> = axes
+            .iter()
+            .map(|(kind, axis, origin)| match kind {
+                JointKind::Revolute => (axis.cross(&(centroid.coords - origin)), *axis),
+                JointKind::Prismatic => (*axis, Vector3::zeros()),
+            })
+            .collect();
+        for (i, (v_i, w_i)) in columns.iter().enumerate() {
+            for (j, (v_j, w_j)) in columns.iter().enumerate() {
+                mass[i][j] += link.mass * v_i.dot(v_j) + w_i.dot(&(inertia * w_j));
+            }
+        }
+    }
+    for (i, joint) in joints.iter().enumerate() {
+        mass[i][i] += joint.motor.reflected_inertia();
+    }
+    mass
+}
+
+/// `T_i` of modified form, at the coordinate.
+fn row(joint: &Joint, coordinate: f64) -> Isometry3<f64> {
+    let (turned, slid) = match joint.kind {
+        JointKind::Revolute => (coordinate, 0.0),
+        JointKind::Prismatic => (0.0, coordinate),
+    };
+    let turn = |axis, angle: Angle| {
+        Isometry3::from_parts(
+            Translation3::identity(),
+            Rotation3::from_axis_angle(&axis, angle.radians).into(),
+        )
+    };
+    turn(Vector3::x_axis(), joint.alpha)
+        * Translation3::new(joint.a, 0.0, 0.0)
+        * turn(
+            Vector3::z_axis(),
+            Angle::from_radians(joint.theta.radians + turned),
+        )
+        * Translation3::new(0.0, 0.0, joint.d + slid)
+}
+
+/// By Cholesky's factorization.
+fn is_positive_definite(mut matrix: Vec<Vec<f64>>) -> bool {
+    for k in 0..matrix.len() {
+        let known: f64 = matrix[k][..k].iter().map(|entry| entry * entry).sum();
+        let pivot = matrix[k][k] - known;
+        // What rounding leaves of nothing is not positive.
+        if pivot.is_nan() || pivot <= 1e-14 * matrix[k][k].abs() {
+            return false;
+        }
+        let pivot = pivot.sqrt();
+        for i in k + 1..matrix.len() {
+            let known: f64 = (0..k).map(|j| matrix[i][j] * matrix[k][j]).sum();
+            matrix[i][k] = (matrix[i][k] - known) / pivot;
+        }
+        matrix[k][k] = pivot;
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Model;
+    use ulna::{Arm, SerialChain, nalgebra::SVector};
+
+    #[test]
+    fn the_mass_matrix_is_the_textbooks() {
+        let model = Model::load("../arms/geared_6.toml").unwrap();
+        let chain = SerialChain::<6>::try_from(&model).unwrap();
+        let q = [0.3, -0.2, 1.1, -0.7, 0.5, 2.0];
+        let ours = mass_matrix(model.joints(), &q);
+        let theirs = chain.mass_matrix(&SVector::from(q));
+        for i in 0..6 {
+            for j in 0..6 {
+                assert!((ours[i][j] - theirs[(i, j)]).abs() < 1e-12 * theirs.amax());
+            }
+        }
+        assert_eq!(indefinite_at(model.joints()), None);
+    }
+
+    #[test]
+    fn a_deficit_that_outweighs_the_rest_is_found() {
+        let model = Model::load("../arms/planar_2r.toml").unwrap();
+        let mut joints = model.joints().to_vec();
+        joints[1].link.inertia[2][2] = -0.01;
+        assert_eq!(indefinite_at(&joints), None);
+        // Beside m c^2 = 0.25 it still leaves the joint's own entry positive.
+        joints[1].link.inertia[2][2] = -0.2;
+        assert!(indefinite_at(&joints).is_some());
+    }
+}

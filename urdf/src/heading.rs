@@ -1,0 +1,21 @@
+//! What a table says at its top of where it comes from.
+
+use crate::note::Note;
+use crate::tree::Tree;
+
+/// The comments before the table's keys.
+pub(crate) fn heading(file: &str, tree: &Tree, base: &str, tip: &str, notes: &[Note]) -> String {
+    let robot = match &tree.robot.name {
+        Some(name) => format!("the robot `{name}` in {file}"),
+        None => file.to_owned(),
+    };
+    let mut text = format!(
+        "Imported by ulna from {robot}.\n\
+         World: the frame of the link `{base}`. Tool: the frame of the link `{tip}`.\n\
+         q is the description's: the same zero, the same sign, base to tip.\n"
+    );
+    for note in notes {
+        text.push_str(&format!("- {note}\n"));
+    }
+    text
+}
