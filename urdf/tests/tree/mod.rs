@@ -53,11 +53,7 @@ impl Robot {
         Self::grown(joints, random, Random::on_a_lattice)
     }
 
-    fn grown(
-        joints: usize,
-        random: &mut Random,
-        place: fn(&mut Random) -> ([f64; 3], [f64; 3], [f64; 3]),
-    ) -> Self {
+    fn grown(joints: usize, random: &mut Random, place: fn(&mut Random) -> [[f64; 3]; 3]) -> Self {
         let mut links = vec![Link {
             parent: None,
             kind: Kind::Fixed,
@@ -70,7 +66,7 @@ impl Robot {
         }];
         let mut end = 0;
         let mut grow = |parent: usize, kind, coordinate: Option<usize>, random: &mut Random| {
-            let (xyz, rpy, axis) = place(random);
+            let [xyz, rpy, axis] = place(random);
             let held = kind != Kind::Fixed && coordinate.is_none();
             // What moves has mass; frames between need none.
             let body = match coordinate {
@@ -218,16 +214,17 @@ impl Random {
         std::array::from_fn(|_| self.within(size))
     }
 
-    fn anywhere(&mut self) -> ([f64; 3], [f64; 3], [f64; 3]) {
-        (self.vector(0.5), self.vector(3.0), self.vector(1.0))
+    /// Origin, turn and axis.
+    fn anywhere(&mut self) -> [[f64; 3]; 3] {
+        [self.vector(0.5), self.vector(3.0), self.vector(1.0)]
     }
 
-    fn on_a_lattice(&mut self) -> ([f64; 3], [f64; 3], [f64; 3]) {
+    fn on_a_lattice(&mut self) -> [[f64; 3]; 3] {
         let xyz = std::array::from_fn(|_| [0.0, 0.0, 0.3, -0.2][self.below(4)]);
         let rpy = std::array::from_fn(|_| [0.0, 0.0, 1.0, -1.0, 2.0][self.below(5)] * FRAC_PI_2);
         let mut axis = [0.0; 3];
         axis[self.below(3)] = [1.0, -1.0][self.below(2)];
-        (xyz, rpy, axis)
+        [xyz, rpy, axis]
     }
 
     /// A body, or none.
