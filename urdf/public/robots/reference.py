@@ -39,8 +39,9 @@ class Reference:
         q = pin.integrate(model, pin.neutral(model), q)
         pin.framesForwardKinematics(model, data, q)
         turned = self.world_from_base.rotation.T
-        jacobian = pin.computeFrameJacobian(model, data, q, self.tip, pin.LOCAL_WORLD_ALIGNED)
-        mass_matrix = np.triu(pin.crba(model, data, q))
+        # Of a single joint Pinocchio's matrices have lost a dimension.
+        jacobian = pin.computeFrameJacobian(model, data, q, self.tip, pin.LOCAL_WORLD_ALIGNED).reshape(6, model.nv)
+        mass_matrix = np.triu(pin.crba(model, data, q).reshape(model.nv, model.nv))
         return {
             "pose": (self.world_from_base.inverse() * data.oMf[self.tip]).homogeneous[:3],
             "jacobian": np.vstack([turned @ jacobian[:3], turned @ jacobian[3:]]),

@@ -147,8 +147,8 @@ def lost(table, joints):
         }
         for word, (ours, theirs, scale) in pairs.items():
             ours = None if ours is None else ours * scale
-            # An effort, a velocity or a friction of 0 says nothing, and need not be in the table.
-            if ours != theirs and not (ours is None and theirs == 0.0) and not near(ours, theirs):
+            # What is 0 says as much as what is not there: no effort is known, there is no friction.
+            if (ours or theirs) and not near(ours, theirs):
                 yield f"{row['name']}: {word} {theirs} has become {ours}"
 
 
