@@ -13,6 +13,7 @@ use crate::heading::heading;
 use crate::import::Import;
 use crate::imported::{Imported, ImportedJoint};
 use crate::merge::{Assembly, Segment};
+use crate::motion::distance;
 use crate::names::{joint_names, robot_name};
 use crate::note::NoteKind;
 use crate::report::Report;
@@ -48,6 +49,7 @@ pub(crate) fn describe(
     let (name, drives) = (name?, drives.into_iter().collect::<Option<Vec<_>>>()?);
     let names = joint_names(&elements, &mut report);
     let kinds: Vec<JointKind> = elements.iter().map(|joint| kind(joint)).collect();
+    say_rounding(distance(&kinds, &moving, &tool, &rows), &mut report);
     let task = task(&kinds, &moving, &tool);
     say_task(task, &mut report);
     gravity(tree, chain, &mut report);
@@ -191,6 +193,17 @@ fn placement(frame: &Frame) -> Placement {
     Placement {
         rotation: frame.rotation.transpose().into(),
         translation: frame.translation.into(),
+    }
+}
+
+/// Says how far from the description's the tool is by the rows, if that is more than the rounding of doubles.
+fn say_rounding(distance: f64, report: &mut Report) {
+    const ROUNDING: f64 = 1e-12;
+    if distance > ROUNDING {
+        let message = format!(
+            "by the table's rows the tool is up to {distance:.1e} m and rad from where the description has it: quarter turns that are written to ten digits or more are taken as whole, and lengths to 1e-13 m"
+        );
+        report.note(NoteKind::Assumed, message);
     }
 }
 

@@ -199,17 +199,20 @@ impl<'s> Elements<'s> {
         }
     }
 
-    /// The finite number that `text` is, a part of `attribute`.
+    /// The number that `text` is, a part of `attribute`.
     fn parsed(&self, text: &str, attribute: Attribute, node: Node, owner: &str) -> Option<f64> {
+        /// More than any robot has, and little enough that its cubes are doubles; limits may be as large as they like.
+        const MOST: f64 = 1e30;
         let number = text.parse::<f64>().ok();
-        if let Some(number) = number.filter(|number| number.is_finite()) {
+        let (name, element) = (attribute.name(), node.tag_name().name());
+        let most = if element == "limit" { f64::MAX } else { MOST };
+        if let Some(number) = number.filter(|number| number.abs() <= most) {
             return Some(number);
         }
-        let (name, element) = (attribute.name(), node.tag_name().name());
         let help = if number.is_some_and(f64::is_nan) {
             "write the number; \"nan\" is none"
         } else if number.is_some() {
-            "write a number that a double can hold; leave the attribute out where there is no limit"
+            "write a number of this world; leave the attribute out where there is no limit"
         } else if text.contains(',') {
             "write a point, not a comma: \"0.5\""
         } else if text.is_empty() {
@@ -217,7 +220,7 @@ impl<'s> Elements<'s> {
         } else {
             "write a decimal number without a unit, such as 0.5 or 1e-3"
         };
-        let message = format!("`{name}` of <{element}> of {owner} is no finite number");
+        let message = format!("`{name}` of <{element}> of {owner} is no number that can be meant");
         self.sink.push(
             Diagnostic::error(attribute.range(), message)
                 .label(format!("`{text}`"))

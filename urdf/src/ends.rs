@@ -99,15 +99,8 @@ impl Search<'_> {
 
     /// Whether the joint is the last of its branch, and others mimic it.
     fn is_gripper(&self, joint: usize) -> bool {
-        let name = &self.tree.joint(joint).name;
-        let mut joints = self.tree.robot.joints.iter().enumerate();
-        let mimicked = joints.any(|(other, element)| {
-            let mimics = element
-                .mimic
-                .as_ref()
-                .is_some_and(|mimic| mimic.joint.name == *name);
-            mimics && !self.dropped[self.tree.child_link(other)]
-        });
+        let mut mimics = self.tree.mimics(joint);
+        let mimicked = mimics.any(|other| !self.dropped[self.tree.child_link(other)]);
         mimicked && self.next_joints(self.tree.child_link(joint)).is_empty()
     }
 

@@ -22,19 +22,13 @@ impl<'t> Freezer<'t> {
 
     /// The coordinate at which the joint is held, rad (m), if all others are at 0 or mimic.
     fn coordinate(&self, joint: usize) -> f64 {
-        // q = m₁ (m₂ (… + o₂)) + o₁, from the joint on to the one that mimics none; a ring of them is held at its offsets.
+        // q = m₁ (m₂ (… + o₂)) + o₁, from the joint on to the one that mimics none.
         let (mut factor, mut value) = (1.0, 0.0);
-        let mut at = joint;
-        for _ in 0..self.tree.robot.joints.len() {
-            let Some(mimic) = &self.tree.joint(at).mimic else {
-                break;
-            };
+        let mut at = Some(joint);
+        while let Some(mimic) = at.and_then(|joint| self.tree.joint(joint).mimic.as_ref()) {
             value += factor * mimic.offset;
             factor *= mimic.multiplier;
-            match self.tree.find_joint(&mimic.joint.name) {
-                Some(next) if next != joint => at = next,
-                _ => break,
-            }
+            at = at.and_then(|joint| self.tree.master(joint));
         }
         value
     }
@@ -55,15 +49,11 @@ impl<'t> Freezer<'t> {
 
     /// The joint of the chain that the joint follows, if there is one.
     fn master(&self, joint: usize) -> Option<&'t JointElement> {
-        let mut at = joint;
-        for _ in 0..self.tree.robot.joints.len() {
-            let mimic = self.tree.joint(at).mimic.as_ref()?;
-            at = self.tree.find_joint(&mimic.joint.name)?;
-            if self.chain.place(at).is_some() {
-                return Some(self.tree.joint(at));
-            }
-        }
-        None
+        let masters = std::iter::successors(Some(joint), |joint| self.tree.master(*joint));
+        let mut moving = masters
+            .skip(1)
+            .filter(|joint| self.chain.place(*joint).is_some());
+        moving.next().map(|joint| self.tree.joint(joint))
     }
 
     /// Says which joints are held, and where: those whose links count with the link `with`.

@@ -1,5 +1,7 @@
 //! What a table says at its top of where it comes from.
 
+use ulna_table::diagnostics::Diagnostics;
+
 use crate::note::Note;
 use crate::tree::Tree;
 
@@ -18,4 +20,20 @@ pub(crate) fn heading(file: &str, tree: &Tree, base: &str, tip: &str, notes: &[N
         text.push_str(&format!("- {note}\n"));
     }
     text
+}
+
+/// The warnings, a line for each.
+pub(crate) fn warned(warnings: &Diagnostics) -> String {
+    let lines = warnings.list().iter().map(|warning| {
+        let label = match warning.label.as_str() {
+            "" => String::new(),
+            label => format!(": {label}"),
+        };
+        let line = match warning.position {
+            Some(position) => format!(" (line {})", position.line),
+            None => String::new(),
+        };
+        format!("- warning: {}{label}{line}\n", warning.message)
+    });
+    lines.collect()
 }

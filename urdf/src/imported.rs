@@ -3,6 +3,7 @@
 use ulna_table::diagnostics::Diagnostics;
 use ulna_table::{AngleUnit, Description, Model};
 
+use crate::heading::warned;
 use crate::note::Note;
 
 /// An arm that was imported from a robot description.
@@ -74,10 +75,8 @@ impl Imported {
     pub fn table(&self) -> String {
         let remarks: Vec<String> = self.joints.iter().map(remark).collect();
         let table = self.description.to_table(AngleUnit::Radians);
-        table
-            .heading(&self.heading)
-            .joint_remarks(&remarks)
-            .to_string()
+        let heading = format!("{}{}", self.heading, warned(&self.warnings));
+        table.heading(&heading).joint_remarks(&remarks).to_string()
     }
 }
 

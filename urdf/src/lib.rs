@@ -26,8 +26,10 @@
 //! assert_eq!((arm.base(), arm.tip()), ("ceiling", "bob"));
 //! assert_eq!(arm.model().joints()[0].link.mass, 4.0);
 //! assert!(arm.notes().iter().any(|note| note.message == "counted with `rod`: `bob`"));
-//! std::fs::write(std::env::temp_dir().join("pendulum.toml"), arm.table())?;
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! // For a file: `ulna check`, build scripts and `arm!` read it.
+//! let table: String = arm.table();
+//! # assert!(ulna_table::Model::parse(&table, "pendulum.toml").is_ok());
+//! # Ok::<(), ulna_table::diagnostics::Diagnostics>(())
 //! ```
 //!
 //! # What becomes of a description
@@ -64,6 +66,7 @@ mod import;
 mod imported;
 mod judge;
 mod merge;
+mod motion;
 mod names;
 mod normal;
 mod note;

@@ -102,6 +102,8 @@ fn gather(
         accepted: false,
         sound: true,
     };
+    let mut on_path = vec![false; tree.robot.joints.len()];
+    chain.path.iter().for_each(|joint| on_path[*joint] = true);
     let mut heavy = Vec::new();
     let mut frozen = Vec::new();
     let mut open = vec![(own, Frame::identity())];
@@ -134,7 +136,7 @@ fn gather(
                     frozen.push(*joint);
                     frame = frame.times(&freezer.displacement(*joint));
                 }
-                if !chain.path.contains(joint) {
+                if !on_path[*joint] {
                     suspicious::joint(tree, *joint, report);
                 }
                 open.push((child, frame));

@@ -14,6 +14,9 @@ use crate::robot::{
 };
 use crate::xml::{document, is_plain};
 
+/// The most links, and the most joints.
+const MOST: usize = 10_000;
+
 /// The robot that `text` describes. `None` if something has been reported to `sink`.
 pub(crate) fn read(text: &str, sink: &Sink) -> Option<Robot> {
     let document = document(text, sink)?;
@@ -29,7 +32,11 @@ pub(crate) fn read(text: &str, sink: &Sink) -> Option<Robot> {
         .all(root, "joint")
         .map(|node| joint(&elements, node))
         .collect();
-    let name = root.attribute("name").map(str::trim).map(str::to_owned);
+    let name = root
+        .has_attribute("name")
+        .then(|| elements.word(root, "name", "the robot"))
+        .flatten()
+        .map(|(name, _)| name.to_owned());
     for node in root.descendants() {
         if node.is_element() && !is_plain(text, node) && is_xacro(text, node) {
             elements.unexpanded(elements.tag(node));
@@ -37,6 +44,16 @@ pub(crate) fn read(text: &str, sink: &Sink) -> Option<Robot> {
     }
     if let Some(error) = elements.xacro() {
         sink.push(error);
+        return None;
+    }
+    if let Some(node) = elements
+        .all(root, "link")
+        .nth(MOST)
+        .or(elements.all(root, "joint").nth(MOST))
+    {
+        let message = format!("there are more than {MOST} links or joints");
+        let error = Diagnostic::error(elements.tag(node), message).label("one too many");
+        sink.push(error.help("a robot has some hundreds: take a part of the description"));
         return None;
     }
     if links.is_empty() {

@@ -4,6 +4,7 @@ use nalgebra::{SVector, Vector3, Vector6};
 use ulna::{JointKind, TaskRow, TaskRows};
 
 use crate::frame::Frame;
+use crate::motion::{frames, generic};
 use crate::rows::Moving;
 
 /// Rows for w_D that are not dependent at every configuration: of six joints or more all that can move, of fewer the
@@ -69,14 +70,6 @@ fn norm(vector: &[f64]) -> f64 {
     vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Coordinates that are in no simple relation: the parts after the point of multiples of the golden ratio.
-fn generic(configuration: usize, joints: usize) -> Vec<f64> {
-    const GOLDEN: f64 = 1.618_033_988_749_895;
-    let first = configuration * joints + 1;
-    let parts = (first..first + joints).map(|k| (k as f64 * GOLDEN).fract());
-    parts.map(|part| 2.0 * part - 1.0).collect()
-}
-
 /// The columns of the geometric Jacobian at the tool, in the base's axes.
 fn jacobian(
     kinds: &[JointKind],
@@ -84,26 +77,23 @@ fn jacobian(
     tool: &Frame,
     q: &[f64],
 ) -> Vec<SVector<f64, 6>> {
-    let mut frame = Frame::identity();
-    let mut axes = Vec::new();
-    for ((kind, joint), q) in kinds.iter().zip(joints).zip(q) {
-        frame = frame.times(&joint.placement);
+    let (frames, tool) = frames(kinds, joints, tool, q);
+    let column = |(kind, (frame, joint)): (&JointKind, (&Frame, &Moving))| {
         let axis = frame.rotation * joint.axis;
-        axes.push((*kind, axis, frame.translation));
-        frame = frame.times(&match kind {
-            JointKind::Revolute => Frame::turned(&joint.axis, *q),
-            JointKind::Prismatic => Frame::moved(joint.axis * *q),
-        });
-    }
-    let tool = frame.point(&tool.translation);
-    let column = |(kind, axis, origin): (JointKind, Vector3<f64>, Vector3<f64>)| {
         let (linear, angular) = match kind {
-            JointKind::Revolute => (axis.cross(&(tool - origin)), axis),
+            JointKind::Revolute => {
+                let arm = tool.translation - frame.translation;
+                (axis.cross(&arm), axis)
+            }
             JointKind::Prismatic => (axis, Vector3::zeros()),
         };
         Vector6::new(
             linear.x, linear.y, linear.z, angular.x, angular.y, angular.z,
         )
     };
-    axes.into_iter().map(column).collect()
+    kinds
+        .iter()
+        .zip(frames.iter().zip(joints))
+        .map(column)
+        .collect()
 }

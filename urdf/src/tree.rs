@@ -20,6 +20,8 @@ pub(crate) struct Tree {
     child_joints: Vec<Vec<usize>>,
     /// For each joint the links that it connects.
     ends: Vec<Ends>,
+    /// The joint that each joint mimics.
+    masters: Vec<Option<usize>>,
 }
 
 #[derive(Clone, Copy)]
@@ -65,21 +67,7 @@ impl Tree {
                 })
             })
             .collect();
-        for joint in &robot.joints {
-            let Some(mimic) = &joint.mimic else { continue };
-            if !joints.contains_key(mimic.joint.name.as_str()) {
-                let message = format!(
-                    "joint `{}` mimics the joint `{}`, which is not there",
-                    joint.name, mimic.joint.name
-                );
-                let names = robot.joints.iter().map(|joint| &joint.name);
-                let help = match closest(&mimic.joint.name, names.take(COMPARED)) {
-                    Some(name) => format!("did you mean `{name}`?"),
-                    None => "name a joint of the file".to_owned(),
-                };
-                sink.push(Diagnostic::error(mimic.joint.span.clone(), message).help(help));
-            }
-        }
+        let masters = masters(&robot, &joints, sink);
         let sound = links.len() == robot.links.len() && joints.len() == robot.joints.len();
         let ends = ends.into_iter().collect::<Option<Vec<_>>>()?;
         let mut child_joints = vec![Vec::new(); robot.links.len()];
@@ -111,6 +99,7 @@ impl Tree {
             parent_joint,
             child_joints,
             ends,
+            masters: masters?,
         })
     }
 
@@ -127,10 +116,15 @@ impl Tree {
         self.robot.links.iter().position(|link| link.name == name)
     }
 
-    /// The joint of that name.
-    pub(crate) fn find_joint(&self, name: &str) -> Option<usize> {
-        let mut joints = self.robot.joints.iter();
-        joints.position(|joint| joint.name == name)
+    /// The joint that a joint mimics; following it leads to one that mimics none.
+    pub(crate) fn master(&self, joint: usize) -> Option<usize> {
+        self.masters[joint]
+    }
+
+    /// The joints that mimic a joint.
+    pub(crate) fn mimics(&self, joint: usize) -> impl Iterator<Item = usize> {
+        let masters = self.masters.iter().enumerate();
+        masters.filter_map(move |(other, master)| (*master == Some(joint)).then_some(other))
     }
 
     /// The joints on a link, in the file's order.
@@ -221,34 +215,85 @@ fn root(
         );
         return None;
     }
-    // Climbing from a link of a loop ends nowhere; from all others at the root.
-    let mut hangs = vec![false; robot.links.len()];
-    let mut seen_from: Vec<Option<usize>> = vec![None; robot.links.len()];
-    for link in 0..robot.links.len() {
-        let mut way = Vec::new();
-        let mut at = link;
-        while !hangs[at] && seen_from[at] != Some(link) {
-            seen_from[at] = Some(link);
-            way.push(at);
-            match parent_joint[at] {
-                Some(joint) => at = ends[joint].parent,
-                None => hangs[at] = true,
-            }
-        }
-        if !hangs[at] {
-            let message = format!(
-                "the link `{}` hangs on itself, through a loop of joints",
-                robot.links[at].name
-            );
-            sink.push(
-                Diagnostic::error(robot.links[at].span.clone(), message)
-                    .help("let one link have no parent, and every other one"),
-            );
-            return None;
-        }
-        way.into_iter().for_each(|link| hangs[link] = true);
+    let parents: Vec<_> = parent_joint
+        .iter()
+        .map(|joint| joint.map(|joint| ends[joint].parent))
+        .collect();
+    if let Some(link) = looped(&parents) {
+        let link = &robot.links[link];
+        let message = format!(
+            "the link `{}` hangs on itself, through a loop of joints",
+            link.name
+        );
+        sink.push(
+            Diagnostic::error(link.span.clone(), message)
+                .help("let one link have no parent, and every other one"),
+        );
+        return None;
     }
     roots.first().copied()
+}
+
+/// The joint that each joint mimics. `None` if something has been reported.
+fn masters(
+    robot: &Robot,
+    joints: &HashMap<&str, usize>,
+    sink: &Sink,
+) -> Option<Vec<Option<usize>>> {
+    let mut sound = true;
+    let mut refuse = |reference: &Reference, message: String, help: String| {
+        sink.push(Diagnostic::error(reference.span.clone(), message).help(help));
+        sound = false;
+    };
+    let mut masters = Vec::new();
+    for joint in &robot.joints {
+        let master = joint.mimic.as_ref().and_then(|mimic| {
+            let found = joints.get(mimic.joint.name.as_str()).copied();
+            if found.is_none() {
+                let names = robot.joints.iter().map(|joint| &joint.name);
+                let help = match closest(&mimic.joint.name, names.take(COMPARED)) {
+                    Some(name) => format!("did you mean `{name}`?"),
+                    None => "name a joint of the file".to_owned(),
+                };
+                let message = format!(
+                    "joint `{}` mimics the joint `{}`, which is not there",
+                    joint.name, mimic.joint.name
+                );
+                refuse(&mimic.joint, message, help);
+            }
+            found
+        });
+        masters.push(master);
+    }
+    if let Some(joint) = looped(&masters) {
+        let joint = &robot.joints[joint];
+        if let Some(mimic) = &joint.mimic {
+            let message = format!("joint `{}` mimics itself, in the end", joint.name);
+            let help = "let one of the joints that mimic one another have no <mimic>".to_owned();
+            refuse(&mimic.joint, message, help);
+        }
+    }
+    sound.then_some(masters)
+}
+
+/// One of a loop of steps, if following them from anywhere ever ends in one.
+fn looped(next: &[Option<usize>]) -> Option<usize> {
+    let mut ends = vec![false; next.len()];
+    let mut seen_from: Vec<Option<usize>> = vec![None; next.len()];
+    for start in 0..next.len() {
+        let mut way = Vec::new();
+        let mut at = Some(start);
+        while let Some(here) = at.filter(|here| !ends[*here]) {
+            if seen_from[here] == Some(start) {
+                return Some(here);
+            }
+            seen_from[here] = Some(start);
+            way.push(here);
+            at = next[here];
+        }
+        way.into_iter().for_each(|here| ends[here] = true);
+    }
+    None
 }
 
 /// The first names of a list, and how many more there are.

@@ -36,7 +36,9 @@ pub(crate) fn document<'t>(text: &'t str, sink: &Sink) -> Option<Document<'t>> {
 /// Whether the element is written without a prefix, whatever the default namespace is.
 pub(crate) fn is_plain(text: &str, node: Node) -> bool {
     let written = text.get(node.range().start + 1..).unwrap_or_default();
-    node.is_element() && written.starts_with(node.tag_name().name())
+    let after = written.strip_prefix(node.tag_name().name());
+    // A prefix may be the name itself.
+    node.is_element() && after.is_some_and(|after| !after.starts_with(':'))
 }
 
 /// The start tag's name, with its bracket.

@@ -80,6 +80,7 @@ fn what_xacro_has_not_expanded() {
     insta::assert_snapshot!(messages_of(&[
         "<robot name=\"a\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">\n  <xacro:include filename=\"b\"/>\n  <xacro:b/>\n</robot>",
         "<robot name=\"a\">\n  <xacro:include filename=\"b\"/>\n</robot>",
+        "<robot name=\"${robot}\">\n<link name=\"a\"/>\n</robot>",
         "<robot name=\"a\">\n<link name=\"${prefix}a\"><inertial><mass value=\"${m}\"/></inertial></link>\n</robot>",
         "<robot name=\"a\">\n<link name=\"a\"/><link name=\"b\"/>\n<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/>\
          <child link=\"b\"/><origin xyz=\"0 0 $(arg height)\"/></joint></robot>",
@@ -162,6 +163,7 @@ fn trees() {
                 "<link name=\"flange\"/><link name=\"camera\"/>"
             ),
             ("<mimic joint=\"finger_1\"", "<mimic joint=\"finger_3\""),
+            ("<mimic joint=\"finger_1\"", "<mimic joint=\"finger_2\""),
         ]
     ));
 }
@@ -287,6 +289,15 @@ fn what_a_table_refuses_is_told_at_the_joint() {
 }
 
 #[test]
+fn axes_that_are_neither_parallel_nor_not() {
+    let text = edited(
+        "xyz=\"0.45 0 0.03\"",
+        "xyz=\"0.45 0 0.03\" rpy=\"0 0.001 0\"",
+    );
+    insta::assert_snapshot!(refused(&to_hand(), &text));
+}
+
+#[test]
 fn files() {
     let folder = tempfile::tempdir().unwrap();
     let load = |name: &str, bytes: &[u8]| {
@@ -314,8 +325,8 @@ fn hostile_texts_are_refused_in_good_time() {
     );
     refused(&Import::new(), &deep);
     let mut ring = "<robot name=\"ring\">".to_owned();
-    for link in 0..20_000 {
-        let next = (link + 1) % 20_000;
+    for link in 0..9_000 {
+        let next = (link + 1) % 9_000;
         ring.push_str(&format!(
             "<link name=\"l{link}\"/><joint name=\"j{link}\" type=\"fixed\"><parent link=\"l{link}\"/><child link=\"l{next}\"/></joint>"
         ));
@@ -323,7 +334,12 @@ fn hostile_texts_are_refused_in_good_time() {
     let found = refused(&Import::new(), &(ring + "</robot>"));
     assert!(found.to_string().contains("loop of joints"), "{found}");
     let wide = format!("<robot>{}</robot>", "<joint/>".repeat(50_000));
-    refused(&Import::new(), &wide);
+    let found = refused(&Import::new(), &wide);
+    assert!(found.to_string().contains("more than 10000"), "{found}");
+    let huge = ARM
+        .replace("ixx=\"0.03\"", "ixx=\"1e29\"")
+        .replace("xyz=\"0.01 0 0.08\"", "xyz=\"1e29 1e29 1e29\"");
+    refused(&to_hand(), &huge);
 }
 
 proptest! {

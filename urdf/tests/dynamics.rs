@@ -86,74 +86,77 @@ fn point(pose: &Matrix4<f64>) -> Vector3<f64> {
     pose.fixed_view::<3, 1>(0, 3).into_owned()
 }
 
-fn imported(robot: &Robot) -> Imported {
+/// The arm; none if two of its axes happen to be so nearly parallel that they are refused.
+fn imported(robot: &Robot) -> Option<Imported> {
     let tip = robot.links.len() - 1;
     let text = robot.to_urdf();
-    Import::new()
+    match Import::new()
         .tip(format!("l{tip}"))
         .parse(&text, "random.urdf")
-        .unwrap_or_else(|found| panic!("{text}\n{found}"))
+    {
+        Ok(arm) => Some(arm),
+        Err(found) if found.to_string().contains("lose their digits there") => None,
+        Err(found) => panic!("{text}\n{found}"),
+    }
 }
 
+/// What rounding may make of numbers up to a few metres and radians, where common normals are as far away as the rows allow, or near by.
+const FAR: f64 = 2e-11;
+const NEAR: f64 = 1e-12;
+
 /// The imported arm and its table against the tree, at a few configurations.
-fn check<const N: usize>(robot: &Robot, random: &mut Random) {
-    let arm = imported(robot);
+fn check<const N: usize>(robot: &Robot, tolerance: f64, random: &mut Random) {
+    let Some(arm) = imported(robot) else { return };
     let table = Model::parse(&arm.table(), "table.toml").unwrap_or_else(|found| panic!("{found}"));
     for model in [arm.model(), &table] {
         let chain = SerialChain::<N>::try_from(model).unwrap();
         for _ in 0..3 {
             let q = SVector::from_fn(|_, _| random.within(2.0));
             let truth = Truth::<N>::of(robot, &q);
-            let (text, scale) = (robot.to_urdf(), truth.mass_matrix.amax());
+            let text = robot.to_urdf();
+            let near = |what: &str, off: f64, scale: f64| {
+                assert!(
+                    off <= tolerance * scale,
+                    "{what}: {off:e} of {scale:e}\n{text}"
+                );
+            };
             let tool = chain.forward_kinematics(&q).to_homogeneous();
-            assert!(
-                (tool - truth.tool).amax() < 1e-12,
-                "{tool}{}{text}",
-                truth.tool
-            );
+            near("tool", (tool - truth.tool).amax(), 1.0);
             let jacobian = chain.geometric_jacobian(&q);
-            assert!(
-                (jacobian - truth.jacobian).amax() < 1e-12,
-                "{jacobian}{}{text}",
-                truth.jacobian
-            );
+            near("J", (jacobian - truth.jacobian).amax(), 1.0);
             let mass_matrix = chain.mass_matrix(&q);
             let off = (mass_matrix - truth.mass_matrix).amax();
-            assert!(
-                off < 1e-12 * scale,
-                "{mass_matrix}{}{text}",
-                truth.mass_matrix
-            );
+            near("M", off, truth.mass_matrix.amax());
             let gravity = chain.gravity_torque(&q);
-            assert_relative_eq!(
-                gravity,
-                truth.gravity_torque,
-                epsilon = 1e-10,
-                max_relative = 1e-12
-            );
+            let weight: f64 = model
+                .joints()
+                .iter()
+                .map(|joint| joint.link.mass * GRAVITY)
+                .sum();
+            near("gravity", (gravity - truth.gravity_torque).amax(), weight);
         }
     }
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(32))]
 
     /// Axes and origins anywhere, links fixed between and beside, branches that are frozen.
     #[test]
     fn arbitrary_chains_move_as_described(seed: u64) {
         let mut random = Random::new(seed);
-        check::<1>(&Robot::random(1, &mut random), &mut random);
-        check::<2>(&Robot::random(2, &mut random), &mut random);
-        check::<6>(&Robot::random(6, &mut random), &mut random);
-        check::<7>(&Robot::random(7, &mut random), &mut random);
+        check::<1>(&Robot::random(1, &mut random), FAR, &mut random);
+        check::<2>(&Robot::random(2, &mut random), FAR, &mut random);
+        check::<6>(&Robot::random(6, &mut random), FAR, &mut random);
+        check::<7>(&Robot::random(7, &mut random), FAR, &mut random);
     }
 
     /// The same with axes along x, y or z and turns by quarters: parallel, intersecting and in line.
     #[test]
     fn square_chains_move_as_described(seed: u64) {
         let mut random = Random::new(seed);
-        check::<3>(&Robot::square(3, &mut random), &mut random);
-        check::<6>(&Robot::square(6, &mut random), &mut random);
+        check::<3>(&Robot::square(3, &mut random), NEAR, &mut random);
+        check::<6>(&Robot::square(6, &mut random), NEAR, &mut random);
     }
 }
 
@@ -190,7 +193,7 @@ fn q_is_that_of_the_description() {
             link(Some(1), Kind::Prismatic, x, [0.2, 0.0, 0.0], Some(1)),
         ],
     };
-    let arm = SerialChain::<2>::try_from(imported(&robot).model()).unwrap();
+    let arm = SerialChain::<2>::try_from(imported(&robot).unwrap().model()).unwrap();
     let tool = arm.forward_kinematics(&[std::f64::consts::FRAC_PI_2, 0.3].into());
     let expected = Vector3::new(0.0, -0.5, 0.5);
     assert_relative_eq!(tool.translation.vector, expected, epsilon = 1e-15);

@@ -109,6 +109,10 @@ fn what_looks_wrong() {
         ("lower=\"-2\" upper=\"2\"", "lower=\"-114\" upper=\"114\""),
         ("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 0 100\"/>"),
         (
+            "xyz=\"0.45 0 0.03\"",
+            "xyz=\"0.45 0 0.03\" rpy=\"0 4e-6 0\"",
+        ),
+        (
             "<origin xyz=\"0.15 0.01 0\"/>",
             "<origin xyz=\"35 0.01 0\"/>",
         ),
@@ -167,7 +171,16 @@ fn every_body_counts_once() {
         &impossible,
     );
     assert_eq!(arm.model().accepts_inertia(), [true, false, false]);
-    assert!(arm.table().contains("accept_inertia = true\n"));
+    let table = arm.table();
+    assert!(table.contains("accept_inertia = true\n"), "{table}");
+    assert!(
+        table.contains("# - warning: the inertia of link `column`"),
+        "{table}"
+    );
+    assert!(
+        table.contains("beyond the sum by 9.9 % (line 26)\n"),
+        "{table}"
+    );
     insta::assert_snapshot!(said(&arm));
 }
 
@@ -204,7 +217,11 @@ fn dressings_change_nothing() {
         ),
         edited("<robot ", "<robot xmlns:sensor=\"http://sensor\" ").replace(
             "<link name=\"flange\"/>",
-            "<link name=\"flange\"><sensor:inertial/></link><sensor:joint/>",
+            "<link name=\"flange\"><sensor:inertial/></link><sensor:joint/><sensor:sensor/>",
+        ),
+        edited("<robot ", "<robot xmlns:link=\"http://link\" ").replace(
+            "<link name=\"flange\"/>",
+            "<link name=\"flange\"/><link:link name=\"hand\"/>",
         ),
         edited("xyz=\"0.05 0 0.15\"", "xyz=\" 5e-2\t+0  .15 \""),
     ];
@@ -232,6 +249,26 @@ fn tasks() {
         column.model().task().iter().collect::<Vec<_>>(),
         [TaskRow::Rz]
     );
+}
+
+/// What is written as a quarter turn to eleven digits becomes one, and that is told; exact ones are not worth a word.
+#[test]
+fn rounded_quarter_turns_are_told() {
+    let rounded = to_hand(&edited(
+        "rpy=\"-1.5707963267948966 0 0\"",
+        "rpy=\"-1.57079632679 0 0\"",
+    ));
+    assert_eq!(
+        rounded.description().joints,
+        to_hand(ARM).description().joints
+    );
+    let told = |arm: &Imported| {
+        arm.notes()
+            .iter()
+            .any(|note| note.message.contains("are taken as whole"))
+    };
+    assert!(told(&rounded), "{:?}", rounded.notes());
+    assert!(!told(&to_hand(ARM)));
 }
 
 /// A base that is not the root, and does not stand upright.
