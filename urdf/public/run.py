@@ -40,7 +40,7 @@ def main():
 
     def one(trial):
         done = attempt(programs, folders[trial.wheel], tables, trial)
-        state = "ok" if done.passed else "refused" if not (done.imported or done.broke) else "WRONG"
+        state = "ok" if done.passed else "refused" if done.was_refused else "WRONG"
         print(f"{state:8} {done.wheel}: {done.title}", file=sys.stderr, flush=True)
         return done
 
@@ -54,7 +54,7 @@ def main():
         (work / "results.json").write_text(json.dumps(results, indent=1) + "\n")
     else:
         print(text)
-    sys.exit(any(trial.broke or (trial.imported and not trial.passed) for trial in trials))
+    sys.exit(any(trial.went_wrong for trial in trials))
 
 
 def plan(folders):

@@ -49,6 +49,14 @@ class Trial:
         done = [self.checked, self.generated, self.verified, self.kept]
         return self.imported and not self.broke and all(word == "ok" for word in done) and self.worst() <= TOLERANCE
 
+    @property
+    def was_refused(self):
+        return not self.imported and not self.broke
+
+    @property
+    def went_wrong(self):
+        return self.broke or (self.imported and not self.passed)
+
     def worst(self, quantity=None):
         found = [
             value
