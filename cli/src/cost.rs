@@ -13,6 +13,7 @@ use ulna_codegen::{Counts, Generated};
 use ulna_table::Model;
 
 use crate::methods::Methods;
+use crate::progress::Progress;
 use crate::{Verdict, base_parameters, console};
 
 /// Count the operations of an arm's code
@@ -41,11 +42,17 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         return Ok(Verdict::Pass);
     }
     let start = Instant::now();
-    let generator = arguments.methods.generator();
-    let generated = generator.generate(&model, &arguments.table.display().to_string());
-    console::warnings(&arguments.table, generated.warnings());
+    let progress = Progress::new()?;
+    let generated = arguments.methods.generator().generate_watched(
+        &model,
+        &arguments.table.display().to_string(),
+        &|stage| progress.says(stage),
+    );
+    progress.says("laying out");
     let lines = generated.source().lines().count();
     let seconds = start.elapsed().as_secs_f64();
+    drop(progress);
+    console::warnings(&arguments.table, generated.warnings());
     if arguments.json {
         writeln!(out, "{:#}", json(&model, &generated))?;
     } else {

@@ -21,6 +21,7 @@ mod man;
 mod methods;
 mod numbers;
 mod output;
+mod progress;
 mod reproduce;
 mod rows;
 mod setting;
