@@ -75,6 +75,7 @@ pub(crate) fn describe(
         joint_names: names.iter().cloned().map(Some).collect(),
         allow: Vec::new(),
         accept_inertia: segments.iter().map(|segment| segment.accepted).collect(),
+        allow: Vec::new(),
     };
     let model = match Model::new(&description) {
         Ok(model) => model,
