@@ -6,6 +6,7 @@ mod check;
 mod cost;
 mod generate;
 mod help;
+mod long_arms;
 mod methods;
 mod reproduce;
 mod support;
