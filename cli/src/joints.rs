@@ -16,20 +16,23 @@ pub(crate) trait ForChain {
 /// Runs `work` on the chain of `model`.
 ///
 /// # Errors
-/// When the arm has more joints than the program was compiled for.
+/// When the arm has more joints than experiments are compiled for.
 pub(crate) fn with_chain<W: ForChain>(model: &Model, work: W) -> anyhow::Result<W::Output> {
     macro_rules! dispatch {
         ($most:literal: $($joints:literal)+) => {
             match model.joints().len() {
                 $($joints => Ok(work.run(&SerialChain::<$joints>::try_from(model)?)),)+
                 joints => bail!(
-                    "arm `{}` has {joints} joints; this program was compiled for up to {}. \
-                     In a test of your own, `ulna::proof::compare::<{joints}>` does the same",
+                    "arm `{}` has {joints} joints; `ulna reproduce`, `ulna assess` and `ulna campaign` take up to {most}. \
+                     `ulna check`, `ulna generate`, `ulna cost` and `ulna verify` take every arm, up to {all} joints; \
+                     experiments with more than {most} are a program of your own, with `ulna_study` and `SerialChain::<{joints}>`",
                     model.name(),
-                    $most,
+                    most = $most,
+                    all = Model::MAX_JOINTS,
                 ),
             }
         };
     }
+    // A number of joints more is some three seconds more of compiling the program.
     dispatch!(12: 1 2 3 4 5 6 7 8 9 10 11 12)
 }

@@ -100,6 +100,8 @@ impl Report {
             }
         }
         self.used = used;
+        // Equal reports are equal throughout.
+        self.lines[used..].fill(Deviation::new(""));
         self
     }
 

@@ -26,6 +26,8 @@ const MAPS: &str = "figures/assess";
 const PAIRS: &str = "figures/assess_pairs";
 
 /// Judge every law over failures for which it was not tuned: every joint and pair, at a grid of times
+///
+/// Takes arms of up to 12 joints.
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  ulna assess scenarios/tool_path.toml --output target/assess\n\n\

@@ -31,6 +31,8 @@ use summary::Summary;
 pub(crate) use summary::median;
 
 /// Vary a scenario: every joint, a grid of failure times, random starts, goals and forces
+///
+/// Takes arms of up to 12 joints.
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  ulna campaign scenarios/paper_like.toml --cases 140 --output target/campaign\n\n\

@@ -44,6 +44,8 @@ pub(crate) const OUTPUT: &str = "out";
 const PAGE: &str = "README.md";
 
 /// Repeat the paper's experiments: its tables beside ours, figures, series and results.json
+///
+/// Takes arms of up to 12 joints.
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  ulna reproduce scenarios/tool_path.toml --output target/reproduce"

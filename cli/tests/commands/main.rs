@@ -9,6 +9,7 @@ mod cost;
 mod generate;
 mod help;
 mod import;
+mod long_arms;
 mod methods;
 mod new;
 mod reproduce;

@@ -56,6 +56,19 @@ pub(crate) fn folder_with_bad_table() -> tempfile::TempDir {
     folder
 }
 
+/// A table in `folder` of an arm of `joints` joints, the elbow of `planar_2r` again and again.
+pub(crate) fn long_arm(folder: &Path, joints: usize) -> String {
+    let planar = include_str!("../../../arms/planar_2r.toml");
+    let (head, joint) = planar.rsplit_once("[[joint]]").unwrap();
+    let long = format!(
+        "{head}{}",
+        format!("[[joint]]{joint}").repeat(joints.saturating_sub(1))
+    );
+    let table = folder.join(format!("long_{joints}.toml"));
+    std::fs::write(&table, long).unwrap();
+    table.to_str().unwrap().to_owned()
+}
+
 /// What stands at a path: a file's text, where a link leads, or the names in a folder.
 #[cfg(unix)]
 pub(crate) fn at(path: &Path) -> String {

@@ -1,6 +1,6 @@
 //! `ulna verify`.
 
-use crate::support::{folder_with_bad_table, stdout, ulna};
+use crate::support::{folder_with_bad_table, long_arm, stderr, stdout, ulna};
 
 #[test]
 fn emitted_code_is_compared_method_by_method() {
@@ -40,20 +40,45 @@ fn a_bad_table_is_refused() {
         .stdout("");
 }
 
+/// Of as many joints as a table may have, and of one more than experiments go to.
 #[test]
-fn an_arm_with_too_many_joints_is_told_what_to_do() {
+fn long_arms_are_compared_like_short_ones() {
     let folder = tempfile::tempdir().unwrap();
-    let planar = include_str!("../../../arms/planar_2r.toml");
-    let (head, joint) = planar.rsplit_once("[[joint]]").unwrap();
-    let long = format!("{head}{}", format!("[[joint]]{joint}").repeat(20));
-    let table = folder.path().join("long.toml");
-    std::fs::write(&table, long).unwrap();
-    let run = ulna(&["verify", table.to_str().unwrap()])
-        .code(1)
-        .stdout("");
-    let err = crate::support::stderr(&run);
-    assert!(
-        err.contains("21 joints") && err.contains("ulna::proof::compare::<21>"),
-        "{err}"
-    );
+    for (joints, methods) in [
+        (13, "mass_matrix,jacobian_derivatives"),
+        (32, "inverse_dynamics,mass_matrix"),
+    ] {
+        let table = long_arm(folder.path(), joints);
+        let run = ulna(&["verify", &table, "--methods", methods, "--samples", "3"])
+            .code(0)
+            .stderr("");
+        let out = stdout(&run);
+        assert!(
+            out.contains("(3 states)") && !out.contains("WRONG"),
+            "{out}"
+        );
+        for method in methods.split(',') {
+            let lines = out.lines().filter(|line| line.starts_with(method));
+            let least = if method.contains("derivatives") { 3 } else { 2 };
+            assert_eq!(lines.count(), least, "{method}: {out}");
+        }
+    }
+}
+
+/// Unless as many states are asked for.
+#[test]
+fn long_arms_are_compared_at_fewer_states() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = long_arm(folder.path(), 24);
+    let run = ulna(&["verify", &table, "--methods", "gravity_torque"]).code(0);
+    assert!(stdout(&run).contains("(12 states)"));
+}
+
+#[test]
+fn one_joint_too_many_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = long_arm(folder.path(), 33);
+    let run = ulna(&["verify", &table]).code(1).stdout("");
+    let err = stderr(&run);
+    assert!(err.contains("32"), "{err}");
 }
