@@ -4,6 +4,7 @@ mod geared;
 mod paper;
 mod singular;
 mod suite;
+mod verified;
 
 use ulna::SerialChain;
 use ulna_table::Model;
@@ -38,6 +39,13 @@ macro_rules! of_tables {
                 }
 
                 crate::suite::conformance!(*arm(), crate::chain::<$n>(stringify!($name)));
+
+                #[test]
+                fn passes_what_ulna_verify_asks() {
+                    let chain = crate::chain::<$n>(stringify!($name));
+                    let has_payload = crate::model(stringify!($name)).has_payload();
+                    crate::verified::passes(arm(), &chain, has_payload);
+                }
             })*
         }
     };
