@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 const ARROWS: &[(&str, &[&str])] = &[
     ("ulna", &[]),
     ("ulna-table", &["ulna"]),
+    ("ulna-urdf", &["ulna", "ulna-table"]),
     ("ulna-codegen", &["ulna", "ulna-table"]),
     ("ulna-macros", &["ulna-codegen", "ulna-table"]),
     ("ulna-generated", &["ulna", "ulna-codegen"]),
@@ -22,6 +23,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ulna-generated",
             "ulna-study",
             "ulna-table",
+            "ulna-urdf",
         ],
     ),
 ];

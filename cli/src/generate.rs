@@ -9,6 +9,7 @@ use clap::Args;
 
 use crate::methods::Methods;
 use crate::output::{refuse_special, write_whole};
+use crate::progress::Progress;
 use crate::{Verdict, console};
 
 /// Emit the Rust code of an arm
@@ -32,10 +33,16 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let model = console::load(&arguments.table)?;
-    let generator = arguments.methods.generator();
-    let generated = generator.generate(&model, &arguments.table.display().to_string());
-    console::warnings(&arguments.table, generated.warnings());
+    let progress = Progress::new()?;
+    let generated = arguments.methods.generator().generate_watched(
+        &model,
+        &arguments.table.display().to_string(),
+        &|stage| progress.says(stage),
+    );
+    progress.says("laying out");
     let code = generated.source();
+    drop(progress);
+    console::warnings(&arguments.table, generated.warnings());
     match &arguments.output {
         None => out.write_all(code.as_bytes())?,
         Some(file) if arguments.check => check(file, &code, arguments)?,

@@ -15,11 +15,14 @@ mod cost;
 mod figures;
 mod generate;
 mod help;
+mod import;
 mod joints;
 mod man;
 mod methods;
+mod new;
 mod numbers;
 mod output;
+mod progress;
 mod reproduce;
 mod rows;
 mod setting;
@@ -53,7 +56,9 @@ enum Command {
     Reproduce(reproduce::Arguments),
     Assess(assess::Arguments),
     Campaign(campaign::Arguments),
+    New(new::Arguments),
     Check(check::Arguments),
+    Import(import::Arguments),
     Convert(convert::Arguments),
     Generate(generate::Arguments),
     Verify(verify::Arguments),
@@ -78,7 +83,9 @@ impl Command {
             Self::Reproduce(arguments) => reproduce::run(&arguments, out),
             Self::Assess(arguments) => assess::run(&arguments, out),
             Self::Campaign(arguments) => campaign::run(&arguments, out),
+            Self::New(arguments) => new::run(&arguments),
             Self::Check(arguments) => check::run(&arguments, out),
+            Self::Import(arguments) => import::run(&arguments, out),
             Self::Convert(arguments) => convert::run(&arguments, out),
             Self::Generate(arguments) => generate::run(&arguments, out),
             Self::Verify(arguments) => verify::run(&arguments, out),

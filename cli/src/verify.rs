@@ -4,14 +4,12 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use ulna::proof::{self, Report, differences};
-use ulna::{Method, SerialChain};
-use ulna_codegen::{Generator, Interpreter};
-use ulna_table::JointCountError;
+use ulna::Method;
 use ulna_table::Model;
+use ulna_verify::Verified;
 
-use crate::joints::{ForChain, with_chain};
 use crate::methods::Methods;
+use crate::progress::Progress;
 use crate::{Verdict, console};
 
 /// Compare an arm's emitted program, and the generic path, with a computation of twice as many digits, and with finite differences
@@ -29,16 +27,11 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let model = console::load(&arguments.table)?;
-    let verify = Verify {
-        model: &model,
-        generator: arguments.methods.generator(),
-        samples: arguments.samples as usize,
-    };
-    let Found {
+    let Verified {
         emitted,
         textbook,
         differences,
-    } = with_chain(&model, verify)??;
+    } = verified(&model, arguments)?;
     let carrying = if model.has_payload() {
         " with a payload as heavy as its last link"
     } else {
@@ -89,37 +82,13 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     Ok(verdict)
 }
 
-struct Verify<'m> {
-    model: &'m Model,
-    generator: Generator,
-    samples: usize,
-}
-
-struct Found {
-    emitted: Report,
-    textbook: Report,
-    differences: Report,
-}
-
-impl ForChain for Verify<'_> {
-    type Output = Result<Found, JointCountError>;
-
-    fn run<const N: usize>(self, chain: &SerialChain<N>) -> Self::Output {
-        let mut emitted: Interpreter<N> =
-            Interpreter::of(self.model, self.generator.compile(self.model))?;
-        let mut chain = *chain;
-        if self.model.has_payload() {
-            let payload = proof::payload(&chain);
-            emitted = emitted.carrying(&payload);
-            chain = chain.carrying(&payload);
-        }
-        let (chain, exact) = (&chain, emitted.exact());
-        let generated = self.generator.chosen();
-        let states = || proof::states(chain).take(self.samples);
-        Ok(Found {
-            emitted: proof::compare_with(&emitted, &exact, chain, states()).of(generated),
-            textbook: proof::compare_with(chain, &exact, chain, states()).of(generated),
-            differences: differences::compare(&emitted, chain, states()).of(generated),
-        })
-    }
+/// What comes of all comparisons.
+fn verified(model: &Model, arguments: &Arguments) -> anyhow::Result<Verified> {
+    let progress = Progress::new()?;
+    let generator = arguments.methods.generator();
+    let compiled = generator.compile_watched(model, &|stage| progress.says(stage));
+    progress.counts(arguments.samples.into(), "comparing at random states")?;
+    let samples = arguments.samples as usize;
+    let each = || progress.one_done();
+    Ok(ulna_verify::verify(model, compiled, samples, &each)?)
 }

@@ -7,7 +7,7 @@ use ulna::{Method, MethodSet};
 use ulna_table::Model;
 use ulna_table::toml_reader::closest;
 
-use crate::{Compiled, Error, Generated, build};
+use crate::{Compiled, Error, Generated, Stage, build};
 
 /// Generates code for every method of [`ulna::Arm`], or for some of them.
 ///
@@ -69,13 +69,29 @@ impl Generator {
 
     /// As [`generate`](crate::generate).
     pub fn generate(&self, model: &Model, source: &str) -> Generated {
+        self.generate_watched(model, source, &|_| ())
+    }
+
+    /// The same, telling `watch` of every stage before it begins.
+    pub fn generate_watched(
+        &self,
+        model: &Model,
+        source: &str,
+        watch: &dyn Fn(Stage),
+    ) -> Generated {
         let file_name = source.rsplit(std::path::is_separator).next();
-        Generated::new(model, file_name.unwrap_or(source), self.compile(model))
+        let compiled = self.compile_watched(model, watch);
+        Generated::new(model, file_name.unwrap_or(source), compiled, watch)
     }
 
     /// As [`compile`](crate::compile).
     pub fn compile(&self, model: &Model) -> Compiled {
-        crate::compile_methods(model, self.methods)
+        self.compile_watched(model, &|_| ())
+    }
+
+    /// The same, telling `watch` of every stage before it begins.
+    pub fn compile_watched(&self, model: &Model, watch: &dyn Fn(Stage)) -> Compiled {
+        crate::compile_methods(model, self.methods, watch)
     }
 
     /// As [`compile_arms`](crate::compile_arms).

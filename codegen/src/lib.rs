@@ -51,9 +51,10 @@ mod label;
 mod op;
 mod schedule;
 mod sines;
+mod stage;
 
 use ulna::MethodSet;
-use ulna_table::Model;
+use ulna_table::{Lint, Model};
 
 pub use accuracy::Conditioned;
 pub use base_parameters::{BaseParameter, BaseParameters, Term};
@@ -67,6 +68,7 @@ pub use interpret::Interpreter;
 pub use label::Label;
 pub use op::Op;
 pub use schedule::{Operand, Output, Program, Size, Step};
+pub use stage::Stage;
 pub use ulna::Method;
 
 use accuracy::TestStates;
@@ -127,8 +129,9 @@ pub fn compile(model: &Model) -> Compiled {
     Generator::new().compile(model)
 }
 
-/// Those methods as programs.
-fn compile_methods(model: &Model, methods: MethodSet) -> Compiled {
+/// Those methods as programs; `watch` is told of every step before it is taken.
+fn compile_methods(model: &Model, methods: MethodSet, watch: &dyn Fn(Stage)) -> Compiled {
+    watch(Stage::Choosing);
     let states = TestStates::new(model);
     let base_parameters = BaseParameters::of(model);
     let choices = Choices {
@@ -136,6 +139,7 @@ fn compile_methods(model: &Model, methods: MethodSet) -> Compiled {
         ..choose(model, &states, methods)
     };
     let methods = methods.iter().map(|method| {
+        watch(Stage::Formulating(method));
         let program = compile_method(model, method, choices);
         MethodProgram {
             method,
@@ -149,20 +153,25 @@ fn compile_methods(model: &Model, methods: MethodSet) -> Compiled {
         methods,
         base_parameters,
         states: [states.random(), states.near_singular],
-        warnings: warnings_of(&states),
+        warnings: warnings_of(model, &states),
     }
 }
 
-/// What the user should know of an arm before there is code for it; a sentence each.
+/// What the user should know of an arm before there is code for it, a sentence each, beside what [`Model::lint`] finds.
 pub fn warnings(model: &Model) -> Vec<String> {
-    warnings_of(&TestStates::new(model))
+    warnings_of(model, &TestStates::new(model))
 }
 
-fn warnings_of(states: &TestStates) -> Vec<String> {
-    let singular = "w_D is 0 in every configuration: the task's rows of J depend on each other; \
-                    leave out of [task] rows what the arm cannot move";
-    let found = states.singular_everywhere.then(|| singular.to_owned());
-    found.into_iter().collect()
+fn warnings_of(model: &Model, states: &TestStates) -> Vec<String> {
+    let lint = Lint::SingularTask;
+    if !states.singular_everywhere || model.allows(lint) {
+        return Vec::new();
+    }
+    vec![format!(
+        "w_D is 0 in every configuration: the task's rows of J depend on each other; \
+         leave out of [task] rows what the arm cannot move (`allow = [{:?}]` switches this off)",
+        lint.name()
+    )]
 }
 
 fn compile_method(model: &Model, method: Method, choices: Choices) -> Program {

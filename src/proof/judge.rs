@@ -4,6 +4,8 @@ mod motion;
 mod regressor;
 mod task;
 
+use core::cell::OnceCell;
+
 use nalgebra::{IsometryMatrix3, SMatrix, SVector};
 
 use super::scale::Scale;
@@ -17,15 +19,15 @@ pub(super) type Vector<const N: usize> = SVector<f64, N>;
 /// An error, and what is allowed.
 pub(super) type Verdict = (f64, f64);
 
-/// What a reference says at a state, as far as several rules need it.
+/// What a reference says at a state, as far as several rules need it: computed when the first of them asks.
 pub(super) struct Judge<'a, const N: usize> {
     pub(super) reference: &'a dyn Arm<N>,
     pub(super) chain: &'a SerialChain<N>,
     pub(super) state: &'a State<N>,
     pub(super) scale: Scale<N>,
-    manipulability: f64,
-    gradient: Vector<N>,
-    mass_derivatives: [Square<N>; N],
+    condition: OnceCell<f64>,
+    gradient: OnceCell<(f64, Vector<N>)>,
+    mass_derivatives: OnceCell<[Square<N>; N]>,
 }
 
 pub(super) fn rounded<const N: usize>(error: f64) -> Verdict {
@@ -39,16 +41,36 @@ impl<'a, const N: usize> Judge<'a, N> {
         chain: &'a SerialChain<N>,
         state: &'a State<N>,
     ) -> Self {
-        let (manipulability, gradient) = reference.dynamic_manipulability_gradient(&state.q);
         Self {
             reference,
             chain,
             state,
-            scale: Scale::new(reference, chain, &state.q),
-            manipulability,
-            gradient,
-            mass_derivatives: reference.mass_matrix_derivatives(&state.q),
+            scale: Scale::new(chain, &state.q),
+            condition: OnceCell::new(),
+            gradient: OnceCell::new(),
+            mass_derivatives: OnceCell::new(),
         }
+    }
+
+    /// The condition number of w_D.
+    fn condition(&self) -> f64 {
+        let condition = || self.scale.condition(self.reference, &self.state.q);
+        *self.condition.get_or_init(condition)
+    }
+
+    /// The reference's w_D and ∇w_D.
+    fn expected_gradient(&self) -> (f64, Vector<N>) {
+        let gradient = || {
+            self.reference
+                .dynamic_manipulability_gradient(&self.state.q)
+        };
+        *self.gradient.get_or_init(gradient)
+    }
+
+    /// The reference's ∂M/∂q_i.
+    fn expected_mass_derivatives(&self) -> &[Square<N>; N] {
+        let derivatives = || self.reference.mass_matrix_derivatives(&self.state.q);
+        self.mass_derivatives.get_or_init(derivatives)
     }
 
     /// The larger error of a rotation's entry and of a position.
@@ -92,9 +114,10 @@ impl<'a, const N: usize> Judge<'a, N> {
         found: [Square<N>; N],
         _: impl FnOnce() -> [Square<N>; N],
     ) -> Verdict {
+        let expected = self.expected_mass_derivatives();
         let error = |i: usize| {
             let sizes = self.scale.links_beside(self.chain, i);
-            let change = (found[i] - self.mass_derivatives[i]) * self.unit(i);
+            let change = (found[i] - expected[i]) * self.unit(i);
             Scale::masses(sizes, &change)
         };
         rounded::<N>((0..N).map(error).fold(0.0, worse))
@@ -107,7 +130,8 @@ impl<'a, const N: usize> Judge<'a, N> {
     ) -> Verdict {
         let expected = || self.reference.mass_matrix(&self.state.q);
         let (masses, allowed) = self.masses(mass, expected);
-        let (changes, _) = self.mass_derivatives(derivatives, || self.mass_derivatives);
+        let known = || *self.expected_mass_derivatives();
+        let (changes, _) = self.mass_derivatives(derivatives, known);
         (worse(masses, changes), allowed)
     }
 
@@ -124,7 +148,8 @@ impl<'a, const N: usize> Judge<'a, N> {
     }
 
     pub(super) fn manipulability(&self, found: f64, _: impl FnOnce() -> f64) -> Verdict {
-        let error = relative(found - self.manipulability, self.manipulability);
+        let (expected, _) = self.expected_gradient();
+        let error = relative(found - expected, expected);
         (error, self.conditioned(1.0))
     }
 
@@ -134,10 +159,11 @@ impl<'a, const N: usize> Judge<'a, N> {
         found: (f64, Vector<N>),
         _: impl FnOnce() -> (f64, Vector<N>),
     ) -> Verdict {
-        let largest = self.gradient.amax().max(self.manipulability);
-        let difference = found.1 - self.gradient;
+        let (manipulability, gradient) = self.expected_gradient();
+        let largest = gradient.amax().max(manipulability);
+        let difference = found.1 - gradient;
         let slopes = (0..N).map(|i| relative(difference[i] * self.unit(i), largest));
-        let (value, _) = self.manipulability(found.0, || self.manipulability);
+        let (value, _) = self.manipulability(found.0, || manipulability);
         (slopes.fold(value, worse), self.conditioned(4.0))
     }
 
@@ -149,8 +175,7 @@ impl<'a, const N: usize> Judge<'a, N> {
         let (jacobian, value, slopes) = found;
         let expected = || self.reference.geometric_jacobian(&self.state.q);
         let (twists, least) = self.twists(jacobian, expected);
-        let beside = (self.manipulability, self.gradient);
-        let (error, allowed) = self.gradient((value, slopes), || beside);
+        let (error, allowed) = self.gradient((value, slopes), || self.expected_gradient());
         // J's own error is small enough on its own account, or too large on any.
         let excess = if twists <= least { 0.0 } else { f64::INFINITY };
         (worse(error, excess), allowed)
@@ -337,7 +362,7 @@ impl<'a, const N: usize> Judge<'a, N> {
     /// `factor` times what the condition number of w_D makes of rounding.
     /// Where that leaves less than two digits, first-order theory says no more.
     fn conditioned(&self, factor: f64) -> f64 {
-        let tolerance = factor * rounding(N) * self.scale.condition;
+        let tolerance = factor * rounding(N) * self.condition();
         if tolerance > 1e-2 {
             f64::INFINITY
         } else {

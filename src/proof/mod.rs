@@ -19,7 +19,7 @@ use judge::Judge;
 pub use report::{Deviation, Report};
 use scale::Scale;
 
-use crate::{Arm, JointKind, Payload, SerialChain};
+use crate::{Arm, JointKind, Method, MethodSet, Payload, SerialChain};
 use random::SplitMix64;
 
 /// A configuration of an arm, its motion, and its motors' torques.
@@ -112,11 +112,24 @@ macro_rules! define_comparison {
             chain: &SerialChain<N>,
             states: impl IntoIterator<Item = State<N>>,
         ) -> Report {
-            compare_at(candidate, reference, chain, &mut states.into_iter())
+            compare_methods(MethodSet::ALL, candidate, reference, chain, states)
+        }
+
+        /// [`compare_with`] of some methods alone: no other one of the candidate is called, and of the reference
+        /// what tells how large their errors may be.
+        pub fn compare_methods<const N: usize>(
+            methods: MethodSet,
+            candidate: &dyn Arm<N>,
+            reference: &dyn Arm<N>,
+            chain: &SerialChain<N>,
+            states: impl IntoIterator<Item = State<N>>,
+        ) -> Report {
+            compare_at(methods, candidate, reference, chain, &mut states.into_iter())
         }
 
         /// Compiled once for each number of joints, whatever the arms.
         fn compare_at<const N: usize>(
+            methods: MethodSet,
             candidate: &dyn Arm<N>,
             reference: &dyn Arm<N>,
             chain: &SerialChain<N>,
@@ -130,17 +143,24 @@ macro_rules! define_comparison {
                     equal(candidate.task() == reference.task()),
                     equal(candidate.rated_torque() == reference.rated_torque()),
                     $(
-                        judge.$rule(
-                            candidate.$method($(&state.$argument),+),
-                            || reference.$method($(&state.$argument),+),
-                        ),
+                        if methods.contains(Method::$variant) {
+                            judge.$rule(
+                                candidate.$method($(&state.$argument),+),
+                                || reference.$method($(&state.$argument),+),
+                            )
+                        } else {
+                            NOT_COMPARED
+                        },
                     )+
                 ]);
             }
-            report
+            report.of(methods)
         }
     };
 }
+
+/// In the place of a method's error and of what is allowed.
+const NOT_COMPARED: (f64, f64) = (0.0, 0.0);
 
 crate::methods! { [N] define_comparison {} }
 
@@ -151,7 +171,7 @@ pub fn condition<const N: usize>(
     chain: &SerialChain<N>,
     q: &SVector<f64, N>,
 ) -> f64 {
-    Scale::new(reference, chain, q).condition
+    Scale::new(chain, q).condition(reference, q)
 }
 
 /// What rounding may leave of a quantity, relative to the size of its terms.

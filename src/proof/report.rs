@@ -103,6 +103,16 @@ impl Report {
         self
     }
 
+    /// This and a report on other states, of the same methods: as if it had gone on with those.
+    #[must_use]
+    pub fn and(mut self, later: &Self) -> Self {
+        self.states += later.states;
+        for (line, later) in self.lines.iter_mut().zip(later.deviations()) {
+            line.add(later.error, later.tolerance);
+        }
+        self
+    }
+
     /// Whether every method is within its tolerance, at one state at least.
     pub fn passes(&self) -> bool {
         self.states > 0 && self.deviations().iter().all(Deviation::passes)

@@ -21,14 +21,11 @@ pub(super) struct Scale<const N: usize> {
     pub(super) links_ahead: SVector<f64, N>,
     /// What the joints' rotors add to M.
     rotors: SVector<f64, N>,
-    /// The first-order condition number of w_D: its relative change, at worst, where the entries of J and M change by
-    /// ε times the sizes above, is ε times this.
-    pub(super) condition: f64,
     gravity: f64,
 }
 
 impl<const N: usize> Scale<N> {
-    pub(super) fn new(reference: &dyn Arm<N>, chain: &SerialChain<N>, q: &SVector<f64, N>) -> Self {
+    pub(super) fn new(chain: &SerialChain<N>, q: &SVector<f64, N>) -> Self {
         let coordinates = crate::arm::coordinates::coordinates(chain, &q.data.0[0]);
         let length = chain.length(&coordinates);
         let joints = &chain.joints;
@@ -36,7 +33,7 @@ impl<const N: usize> Scale<N> {
         let ahead = |joint: usize| coordinates[joint].abs() + length;
         let roots = |size: &dyn Fn(usize) -> f64| SVector::from_fn(|i, _| Real::sqrt(size(i)));
         let mass: f64 = chain.joints.iter().map(|joint| joint.link.mass).sum();
-        let mut scale = Self {
+        Self {
             length,
             position: length + Vector3::from(chain.base.translation).norm(),
             inertia: roots(&|i| carried_inertia(joints, i, here)),
@@ -44,18 +41,16 @@ impl<const N: usize> Scale<N> {
             links: roots(&|i| carried_by_links(joints, i, here)),
             links_ahead: roots(&|i| carried_by_links(joints, i, ahead)),
             rotors: chain.reflected_inertias(),
-            condition: 1.0,
             gravity: Vector3::from(chain.gravity).norm() * Real::sqrt(mass),
-        };
-        scale.condition = scale.condition_of_manipulability(reference, q);
-        scale
+        }
     }
 
-    /// 0 where w_D is 0, and nothing else is right.
+    /// The first-order condition number of w_D: its relative change, at worst, where the entries of J and M change by
+    /// ε times the sizes above, is ε times this. 0 where w_D is 0, and nothing else is right.
     ///
     /// Σ |W_rj| s_r + Σ |(HᵀW)_ij| m_i m_j, s the sizes of J's entries and m m that of M's:
     /// δ ln w_D = ⟨W, δJ⟩ − ⟨HᵀW, δM⟩, with H = JM⁻¹ and W = (H†)ᵀM⁻¹.
-    fn condition_of_manipulability(&self, reference: &dyn Arm<N>, q: &SVector<f64, N>) -> f64 {
+    pub(super) fn condition(&self, reference: &dyn Arm<N>, q: &SVector<f64, N>) -> f64 {
         if reference.dynamic_manipulability(q) == 0.0 {
             return 0.0;
         }

@@ -30,6 +30,8 @@
 //! # Where to go
 //!
 //! - [`Model::load`] reads a file, [`Model::parse`] a text, [`Model::lint`] warns besides; [`Model::new`] takes a [`Description`] from a program.
+//! - [`Lint`]: what is warned of, each switched off by its name in a table's `allow`.
+//! - [`Model::pose`] and [`Model::reach`]: what can be held against a data sheet, for any number of joints.
 //! - [`reference()`]: the format, every key with its bounds, as `ulna help table` prints it.
 //! - [`TableErrors`]: prints as a text for people; [`diagnostics`] has the errors one by one.
 //! - A [`Model`] becomes a [`SerialChain`](ulna::SerialChain) by `try_from`, or code by the crate `ulna-codegen`.
@@ -39,7 +41,10 @@
 mod chain;
 pub mod diagnostics;
 mod format;
+mod lint;
 mod model;
+mod pose;
+mod reach;
 mod table;
 #[doc(hidden)]
 pub mod toml_reader;
@@ -49,7 +54,9 @@ pub use diagnostics::TableErrors;
 pub use format::reference;
 #[doc(hidden)]
 pub use format::{ANGLE_UNIT, RATED_TORQUE};
+pub use lint::Lint;
+pub use model::{Description, ImpossibleInertia, Model, TableText, impossible_inertia, name_for};
 #[doc(hidden)]
-pub use model::shortest;
-pub use model::{Description, ImpossibleInertia, Model, TableText, impossible_inertia};
+pub use model::{is_keyword, joint_name, shortest};
+pub use pose::Pose;
 pub use table::{AngleUnit, Convention};

@@ -5,6 +5,7 @@
 
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::format;
+use crate::lint::Lint;
 use crate::model::is_word;
 use crate::toml_reader::{self, ARM_TABLE, Choice, Fields, Key, Located, Value};
 use ulna::{JointKind, TaskRow};
@@ -38,9 +39,11 @@ impl Author {
 pub(crate) struct ArmTable {
     pub(crate) author: Author,
     pub(crate) name: Option<Located<String>>,
-    pub(crate) convention: Option<Convention>,
-    pub(crate) angle_unit: Option<AngleUnit>,
+    pub(crate) convention: Option<Located<Convention>>,
+    pub(crate) angle_unit: Option<Located<AngleUnit>>,
     pub(crate) gravity: Option<Vector>,
+    /// The lints that are switched off.
+    pub(crate) allow: Vec<Lint>,
     pub(crate) task: Option<Located<Vec<TaskRow>>>,
     pub(crate) base: Option<PlacementTable>,
     pub(crate) tool: Option<PlacementTable>,
@@ -73,8 +76,11 @@ pub enum AngleUnit {
 impl AngleUnit {
     /// Reads the unit, which every file with angles in it must name.
     pub fn read(fields: &mut Fields<'_>) -> Option<Self> {
-        let unit = fields.value(&format::ANGLE_UNIT)?.choice()?;
-        Some(unit.value)
+        Some(Self::located(fields)?.value)
+    }
+
+    fn located(fields: &mut Fields<'_>) -> Option<Located<Self>> {
+        fields.value(&format::ANGLE_UNIT)?.choice()
     }
 
     /// As a table names it.
@@ -169,12 +175,13 @@ impl ArmTable {
         toml_reader::read(text, &ARM_TABLE, format, sink, |fields| Self {
             author,
             name: string(fields, &format::NAME),
-            convention: fields
-                .value(&format::CONVENTION)
-                .and_then(Value::choice)
-                .map(|convention| convention.value),
-            angle_unit: AngleUnit::read(fields),
+            convention: fields.value(&format::CONVENTION).and_then(Value::choice),
+            angle_unit: AngleUnit::located(fields),
             gravity: numbers(fields, &format::GRAVITY),
+            allow: fields
+                .value(&format::ALLOW)
+                .map(read_allow)
+                .unwrap_or_default(),
             task: fields
                 .value(&format::TASK)
                 .and_then(|value| value.table("[task]", |task| read_rows(task, sink)))
@@ -228,6 +235,13 @@ fn read_rows(task: &mut Fields<'_>, sink: &Sink) -> Option<Located<Vec<TaskRow>>
         rows
     };
     Some(Located { value, span, name })
+}
+
+/// The lints of a list; names that are none have been reported.
+fn read_allow(allow: Value<'_>) -> Vec<Lint> {
+    let names = allow.items("a list of lints").unwrap_or_default();
+    let read = names.into_iter().filter_map(Value::choice);
+    read.map(|lint: Located<Lint>| lint.value).collect()
 }
 
 fn read_placement(placement: &mut Fields<'_>, author: Author, xyz: &'static Key) -> PlacementTable {

@@ -257,10 +257,16 @@ fn every_error_at_once_each_at_its_line() {
 
 #[test]
 fn a_loaded_arm_described_and_made_again_is_the_same() {
-    for entry in std::fs::read_dir("../arms").unwrap() {
-        let loaded = Model::load(entry.unwrap().path()).unwrap();
+    let tables = std::fs::read_dir("../arms").unwrap();
+    let paths = tables.map(|entry| entry.unwrap().path());
+    for path in paths.filter(|path| path.extension().is_some_and(|end| end == "toml")) {
+        let (loaded, of_the_table) = Model::lint(path).unwrap();
         let (made, warnings) = Model::lint_description(&loaded.description()).unwrap();
-        assert!(warnings.is_empty(), "{warnings}");
+        assert_eq!(
+            warnings.list().len(),
+            of_the_table.list().len(),
+            "{warnings}"
+        );
         assert_eq!(made.description(), loaded.description());
         assert_eq!(made.type_name(), loaded.type_name());
         assert_ne!(made.table_hash(), loaded.table_hash());

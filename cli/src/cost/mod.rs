@@ -15,6 +15,7 @@ use ulna_codegen::{Counts, Generated};
 use ulna_table::Model;
 
 use crate::methods::Methods;
+use crate::progress::Progress;
 use crate::{Verdict, base_parameters, console};
 
 /// Count the operations of an arm's code, or of several arms' side by side
@@ -50,8 +51,8 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         }
     } else if arguments.json {
         let arms = arguments.tables.iter().zip(&models);
-        let costs = arms.map(|(table, model)| json(model, &generate(arguments, table, model)));
-        print(costs.collect(), out)?;
+        let costs = arms.map(|(table, model)| Ok(json(model, &generate(arguments, table, model)?)));
+        print(costs.collect::<anyhow::Result<_>>()?, out)?;
     } else {
         match (&*arguments.tables, &*models) {
             ([table], [model]) => write(arguments, table, model, out)?,
@@ -82,11 +83,16 @@ fn models(tables: &[PathBuf]) -> Option<Vec<Model>> {
     models.into_iter().collect()
 }
 
-fn generate(arguments: &Arguments, table: &Path, model: &Model) -> Generated {
-    let generator = arguments.methods.generator();
-    let generated = generator.generate(model, &table.display().to_string());
+fn generate(arguments: &Arguments, table: &Path, model: &Model) -> anyhow::Result<Generated> {
+    let progress = Progress::new()?;
+    let generated = arguments.methods.generator().generate_watched(
+        model,
+        &table.display().to_string(),
+        &|stage| progress.says(format_args!("{}: {stage}", model.name())),
+    );
+    drop(progress);
     console::warnings(table, generated.warnings());
-    generated
+    Ok(generated)
 }
 
 /// What was asked of one arm, or a list for several.
@@ -99,9 +105,14 @@ fn print(mut values: Vec<Value>, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// One arm, with each kind of operation.
-fn write(arguments: &Arguments, path: &Path, model: &Model, out: &mut dyn Write) -> io::Result<()> {
+fn write(
+    arguments: &Arguments,
+    path: &Path,
+    model: &Model,
+    out: &mut dyn Write,
+) -> anyhow::Result<()> {
     let start = Instant::now();
-    let generated = generate(arguments, path, model);
+    let generated = generate(arguments, path, model)?;
     let lines = generated.source().lines().count();
     let seconds = start.elapsed().as_secs_f64();
     writeln!(
@@ -109,7 +120,8 @@ fn write(arguments: &Arguments, path: &Path, model: &Model, out: &mut dyn Write)
         "{}: {lines} lines, generated in {seconds:.3} s",
         model.name()
     )?;
-    writeln!(out, "{}", table(&generated))
+    writeln!(out, "{}", table(&generated))?;
+    Ok(())
 }
 
 fn json(model: &Model, generated: &Generated) -> Value {

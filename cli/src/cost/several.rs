@@ -1,6 +1,6 @@
 //! The operations of several arms side by side.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use comfy_table::Table;
@@ -15,11 +15,11 @@ pub(super) fn write(
     tables: &[PathBuf],
     models: &[Model],
     out: &mut dyn Write,
-) -> io::Result<()> {
+) -> anyhow::Result<()> {
     let arms = tables.iter().zip(models);
     let arms: Vec<_> = arms
         .map(|(table, model)| generate(arguments, table, model))
-        .collect();
+        .collect::<anyhow::Result<_>>()?;
     let mut table = Table::new();
     let names = models.iter().map(Model::name);
     table.set_header(["method"].into_iter().chain(names));
@@ -36,5 +36,6 @@ pub(super) fn write(
         out,
         "operations + pairs of a sine and a cosine, a call\n{}",
         columns::plain(table, &[0])
-    )
+    )?;
+    Ok(())
 }

@@ -181,3 +181,42 @@ fn a_reader_that_hangs_up_is_no_error() {
     let output = child.wait_with_output().unwrap();
     assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
 }
+
+#[test]
+fn what_a_data_sheet_says_is_printed() {
+    let out = stdout(&ulna(&["check", "arms/planar_2r.toml"]).code(0).stderr(""));
+    for line in [
+        "  tool at q = 0  2 0 0 m, rpy 0 0 0 deg, in the world\n",
+        "  reach          2 m, the farthest found of the tool from the origin of frame 1\n",
+        // Two rods of 1 kg, and one.
+        "  held at q = 0  joint 1 19.62 N m, joint 2 4.905 N m\n",
+    ] {
+        assert!(out.contains(line), "{out}");
+    }
+    let out = stdout(&ulna(&["check", "arms/geared_6.toml"]).code(0));
+    // All masses but the turntable's hang on the lift, upright but for a base that leans.
+    assert!(out.contains(", lift 538.2069 N, shoulder "), "{out}");
+    let out = stdout(&ulna(&["check", "arms/ssrms.toml"]).code(0));
+    assert!(out.contains("  reach ") && !out.contains("held"), "{out}");
+}
+
+#[test]
+fn what_is_suspicious_is_a_warning_until_the_table_allows_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rods.toml");
+    let rods = include_str!("../../../arms/planar_2r.toml")
+        .replace("0.0834895833333333", "83489.5833333333")
+        .replace("[\"x\", \"y\"]", "[\"x\", \"z\"]");
+    std::fs::write(&path, &rods).unwrap();
+    let run = ulna(&["check", path.to_str().unwrap()]).code(0);
+    let err = stderr(&run);
+    assert_eq!(err.matches("warning: ").count(), 3, "{err}");
+    assert!(err.contains("kg mm^2 (1 is 1e-6 kg m^2)"), "{err}");
+    assert!(stdout(&run).contains("rods.toml: ok\n"));
+
+    let allowed = format!("allow = [\"large_inertia\", \"singular_task\"]\n{rods}");
+    std::fs::write(&path, allowed).unwrap();
+    for command in ["check", "generate", "cost"] {
+        ulna(&[command, path.to_str().unwrap()]).code(0).stderr("");
+    }
+}

@@ -16,6 +16,7 @@ fn every_example_works() {
         "",
         "check",
         "generate",
+        "import",
         "verify",
         "cost",
         "campaign",

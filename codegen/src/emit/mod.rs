@@ -19,10 +19,10 @@ use quote::{format_ident, quote};
 use ulna::{Method, MethodSet};
 use ulna_table::Model;
 
-use crate::Compiled;
 use crate::accuracy::{ALLOWANCE, Conditioned, LEAST_VOLUME, rounded_up};
 use crate::cost::Counts;
 use crate::op::Op;
+use crate::{Compiled, Stage};
 
 /// The code of an arm.
 #[derive(Debug)]
@@ -34,15 +34,20 @@ pub struct Generated {
 }
 
 impl Generated {
-    /// Emits the methods of `model`'s arm. `source` names the table.
-    pub(crate) fn new(model: &Model, source: &str, compiled: Compiled) -> Self {
+    /// Emits the methods of `model`'s arm. `source` names the table; `watch` is told of every method before it is printed.
+    pub(crate) fn new(
+        model: &Model,
+        source: &str,
+        compiled: Compiled,
+        watch: &dyn Fn(Stage),
+    ) -> Self {
         let counts: Vec<_> = compiled
             .methods
             .iter()
             .map(|method| (method.method, Counts::of(&method.program)))
             .collect();
         Self {
-            tokens: tokens(model, &compiled),
+            tokens: tokens(model, &compiled, watch),
             header: header(model, source, &compiled, &counts),
             counts,
             warnings: compiled.warnings,
@@ -77,7 +82,7 @@ impl Generated {
     }
 }
 
-fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
+fn tokens(model: &Model, compiled: &Compiled, watch: &dyn Fn(Stage)) -> TokenStream {
     let name = format_ident!("{}", model.type_name());
     let joints = model.joints().len();
     let summary = format!(" The arm `{}`: {joints} joints, unrolled.", model.name());
@@ -85,10 +90,10 @@ fn tokens(model: &Model, compiled: &Compiled) -> TokenStream {
     let joint_names = chain::joint_names(model);
     let base_parameters = base_parameters::base_parameters(&compiled.base_parameters);
     let n = Literal::usize_unsuffixed(joints);
-    let kernels = compiled
-        .methods
-        .iter()
-        .map(|method| kernel::kernel(method, joints));
+    let kernels = compiled.methods.iter().map(|method| {
+        watch(Stage::Printing(method.method));
+        kernel::kernel(method, joints)
+    });
     let proof = format_ident!("{}_proof", model.name());
     let (structure, methods, with_payload) = if model.has_payload() {
         (

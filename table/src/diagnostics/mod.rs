@@ -42,6 +42,8 @@ pub struct Diagnostic {
     pub label: String,
     /// What to write instead.
     pub help: Option<String>,
+    /// The [lint](crate::Lint) that a warning is of, by the name that switches it off.
+    pub lint: Option<&'static str>,
     /// Where; `None` if it is about the file as a whole.
     pub position: Option<Position>,
     span: Option<Range<usize>>,
@@ -54,6 +56,7 @@ impl Diagnostic {
             message: shortened(message),
             label: String::new(),
             help: None,
+            lint: None,
             position: None,
             span,
         }
@@ -80,6 +83,12 @@ impl Diagnostic {
         self
     }
 
+    /// As a finding of the lint `name`.
+    pub fn lint(mut self, name: &'static str) -> Self {
+        self.lint = Some(name);
+        self
+    }
+
     /// With what to write instead.
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(shortened(help.into()));
@@ -93,6 +102,7 @@ pub struct Sink {
     source_name: String,
     text: Arc<str>,
     found: RefCell<Vec<Diagnostic>>,
+    allowed: RefCell<Vec<&'static str>>,
 }
 
 impl Sink {
@@ -101,11 +111,22 @@ impl Sink {
             source_name: source_name.to_owned(),
             text: text.into(),
             found: RefCell::default(),
+            allowed: RefCell::default(),
         }
     }
 
     pub fn push(&self, diagnostic: Diagnostic) {
         self.found.borrow_mut().push(diagnostic);
+    }
+
+    /// Leaves out what the lint `name` finds, from here on and before.
+    pub fn allow(&self, name: &'static str) {
+        self.allowed.borrow_mut().push(name);
+    }
+
+    /// Whether an error has been found.
+    pub fn has_errors(&self) -> bool {
+        has_errors(&self.found.borrow())
     }
 
     /// The line of the text that holds the start of `span`, and the part of `span` that lies in it.
@@ -115,7 +136,9 @@ impl Sink {
 
     /// Everything found, in the order of the text.
     pub fn finish(self) -> Diagnostics {
+        let allowed = self.allowed.into_inner();
         let mut list = self.found.into_inner();
+        list.retain(|found| found.lint.is_none_or(|lint| !allowed.contains(&lint)));
         list.sort_by_key(|diagnostic| diagnostic.span.as_ref().map(|span| span.start));
         let lines = LineIndex::new(&self.text);
         for diagnostic in &mut list {
@@ -174,9 +197,7 @@ impl Diagnostics {
 
     /// Whether there is an error among the findings.
     pub fn has_errors(&self) -> bool {
-        self.list
-            .iter()
-            .any(|diagnostic| diagnostic.severity == Severity::Error)
+        has_errors(&self.list)
     }
 
     /// The full text with ANSI colours, for a terminal.
@@ -225,6 +246,10 @@ impl Diagnostics {
         if let Some(help) = &diagnostic.help {
             group = group.element(Level::HELP.message(normalize_untrusted_str(help)));
         }
+        if let Some(lint) = diagnostic.lint {
+            let note = format!("`allow = [{lint:?}]` before the first header switches this off");
+            group = group.element(Level::NOTE.message(note));
+        }
         renderer.render(&[group])
     }
 }
@@ -243,6 +268,11 @@ impl fmt::Debug for Diagnostics {
 }
 
 impl std::error::Error for Diagnostics {}
+
+fn has_errors(list: &[Diagnostic]) -> bool {
+    let mut found = list.iter();
+    found.any(|diagnostic| diagnostic.severity == Severity::Error)
+}
 
 /// Where the lines of a text begin.
 struct LineIndex<'t> {

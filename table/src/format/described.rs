@@ -3,7 +3,8 @@
 //! Nobody writes it by hand, and no reference prints it.
 
 use super::{
-    ANGLE_UNIT, BASE_XYZ, CONVENTION, GRAVITY, JOINTS, NAME, NOTHING, PAYLOAD, TASK, TOOL_XYZ,
+    ALLOW, ANGLE_UNIT, BASE_XYZ, CONVENTION, GRAVITY, JOINTS, NAME, NOTHING, PAYLOAD, TASK,
+    TOOL_XYZ,
 };
 use crate::toml_reader::{Key, Kind, Need, Section};
 
@@ -17,6 +18,7 @@ pub(crate) static DESCRIPTION: Section = Section {
         &CONVENTION,
         &ANGLE_UNIT,
         &GRAVITY,
+        &ALLOW,
         &TASK,
         &DESCRIBED_BASE,
         &DESCRIBED_TOOL,

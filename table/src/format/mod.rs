@@ -16,6 +16,7 @@ pub(crate) use joint::{
     RATED, THETA, XX, XY, XZ, YY, YZ, ZZ,
 };
 
+use crate::lint::Lint;
 use crate::table::{AngleUnit, ArmTable, Convention, RowSet};
 use crate::toml_reader::{Choice, Key, Kind, Limit, Need, Section, reference as printed};
 use bounds::{BASE_LENGTH, GRAVITY as GRAVITY_BOUND, LENGTH};
@@ -38,12 +39,13 @@ pub fn reference() -> String {
 pub(crate) static TABLE: Section = Section {
     header: "",
     meaning: "What concerns the whole arm, and what stands under the headers below",
-    example: "name = \"my_arm\"\nconvention = \"modified\"\nangle_unit = \"deg\"\ngravity = [0.0, 0.0, -9.81]\n",
+    example: "name = \"my_arm\"\nconvention = \"modified\"\nangle_unit = \"deg\"\ngravity = [0.0, 0.0, -9.81]\nallow = []\n",
     keys: &[
         &NAME,
         &CONVENTION,
         &ANGLE_UNIT,
         &GRAVITY,
+        &ALLOW,
         &TASK,
         &BASE,
         &TOOL,
@@ -82,6 +84,13 @@ pub(crate) static GRAVITY: Key = Key::required(
 )
 .limits(&[Limit::Within(&GRAVITY_BOUND)])
 .need(Need::Default(|| "[0.0, 0.0, 0.0]".to_owned()));
+pub(crate) static ALLOW: Key = Key::required(
+    "allow",
+    Kind::List(&Kind::Words(Lint::listed), ""),
+    "Warnings that are switched off, by the names that they give; what is warned of and why",
+    "`allow = []`, or the names of warnings between the brackets",
+)
+.need(Need::Optional("every warning is given"));
 pub(crate) static TASK: Key = Key::required(
     "task",
     Kind::Table(&TASK_SECTION),

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::diagnostics::{Diagnostic, Sink};
+use crate::lint::Lint;
 use crate::table::{AngleUnit, Author};
 use crate::toml_reader::Located;
 use ulna::Angle;
@@ -47,19 +48,22 @@ impl Angles {
         let radians = if degrees { value.to_radians() } else { value };
         let exact = Angle::from_radians(radians).quarter_turns().1 == 0.0;
         if !exact && let Some(multiple) = rounded_quarter(value) {
-            let (message, help) = if degrees {
+            let (lint, message, help) = if degrees {
                 (
+                    Lint::OtherAngleUnit,
                     "looks like an angle in radians",
                     "if angles are in rad, write `angle_unit = \"rad\"`".to_owned(),
                 )
             } else {
                 (
+                    Lint::RoundedAngle,
                     "is a rounded quarter turn, which stays inexact",
                     format!("write {multiple:?}"),
                 )
             };
             let message = format!("{} {message}", number.name);
-            sink.push(Diagnostic::warning(number.span.clone(), message).help(help));
+            let warning = Diagnostic::warning(number.span.clone(), message).help(help);
+            sink.push(warning.lint(lint.name()));
         }
         Some(Angle::from_radians(radians))
     }

@@ -35,7 +35,7 @@ impl Description {
 /// product is that of modified rows in which `a_i`, `α_i` stand in row i+1, with those of the last joint left over
 /// for the tool. Frame i of the modified chain is the standard one without `Tx(a_i)Rx(α_i)`, so link i is
 /// re-expressed by them.
-pub(super) fn standard_to_modified(joints: &mut [Joint], tool: &mut Placement) {
+pub(crate) fn standard_to_modified(joints: &mut [Joint], tool: &mut Placement) {
     let mut before = (Angle::default(), 0.0);
     for joint in joints {
         let own = (joint.alpha, joint.a);

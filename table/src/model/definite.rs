@@ -1,8 +1,9 @@
 //! Whether the mass matrix of an arm with an accepted inertia is positive definite.
 
-use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
-use ulna::{Angle, Joint, JointKind};
+use crate::pose::Pose;
+use ulna::{Joint, JointKind, Placement};
 
 /// Configurations that are tried.
 const SAMPLES: u32 = 200;
@@ -40,15 +41,14 @@ fn spread(sample: u32, coordinate: usize) -> f64 {
 fn mass_matrix(joints: &[Joint], q: &[f64]) -> Vec<Vec<f64>> {
     let count = joints.len();
     let mut mass = vec![vec![0.0; count]; count];
-    let mut frame = Isometry3::identity();
+    let pose = Pose::of_chain(joints, &Placement::IDENTITY, &Placement::IDENTITY, q);
     let mut axes: Vec<(JointKind, Vector3<f64>, Vector3<f64>)> = Vec::new();
-    for (joint, &coordinate) in joints.iter().zip(q) {
-        frame *= row(joint, coordinate);
+    for (joint, frame) in joints.iter().zip(pose.links()) {
         let axis = frame.rotation * Vector3::z();
         axes.push((joint.kind, axis, frame.translation.vector));
         let link = &joint.link;
         let centroid = frame * nalgebra::Point3::from(link.com);
-        let turn = frame.rotation.to_rotation_matrix().into_inner();
+        let turn = frame.rotation.into_inner();
         let inertia = turn * Matrix3::from_fn(|i, j| link.inertia[i][j]) * turn.transpose();
         let columns: Vec<(Vector3<f64>, Vector3<f64>)> = axes
             .iter()
@@ -67,27 +67,6 @@ fn mass_matrix(joints: &[Joint], q: &[f64]) -> Vec<Vec<f64>> {
         mass[i][i] += joint.motor.reflected_inertia();
     }
     mass
-}
-
-/// `T_i` of modified form, at the coordinate.
-fn row(joint: &Joint, coordinate: f64) -> Isometry3<f64> {
-    let (turned, slid) = match joint.kind {
-        JointKind::Revolute => (coordinate, 0.0),
-        JointKind::Prismatic => (0.0, coordinate),
-    };
-    let turn = |axis, angle: Angle| {
-        Isometry3::from_parts(
-            Translation3::identity(),
-            Rotation3::from_axis_angle(&axis, angle.radians).into(),
-        )
-    };
-    turn(Vector3::x_axis(), joint.alpha)
-        * Translation3::new(joint.a, 0.0, 0.0)
-        * turn(
-            Vector3::z_axis(),
-            Angle::from_radians(joint.theta.radians + turned),
-        )
-        * Translation3::new(0.0, 0.0, joint.d + slid)
 }
 
 /// By Cholesky's factorization.

@@ -4,6 +4,7 @@ use super::Model;
 use super::joint_names::numbered;
 use super::written::TableText;
 use crate::diagnostics::{Diagnostic, Diagnostics, Sink, TableErrors};
+use crate::lint::Lint;
 use crate::table::{ArmTable, Author, Convention, InertiaTable};
 use crate::toml_reader::Located;
 use ulna::{Joint, Placement, TaskRows};
@@ -49,6 +50,8 @@ pub struct Description {
     pub joints: Vec<Joint>,
     /// The joints' names, base first, where they have any; those left out at the end have none.
     pub joint_names: Vec<Option<String>>,
+    /// The lints that are switched off.
+    pub allow: Vec<Lint>,
     /// Whether a link's inertia is taken over although no rigid body can have it, base first; those left out at the end are not.
     pub accept_inertia: Vec<bool>,
 }
@@ -95,6 +98,7 @@ impl Model {
             payload: self.payload,
             joints: self.joints.clone(),
             joint_names: self.given_names(),
+            allow: self.allow.clone(),
             accept_inertia: self.accept_inertia.clone(),
         }
     }

@@ -18,6 +18,15 @@ pub(crate) fn is_word(name: &str) -> bool {
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
+/// `name`, if a joint can be called so, or else a word close to it.
+pub fn joint_name(name: &str) -> String {
+    if is_word(name) {
+        name.to_owned()
+    } else {
+        proposal(name)
+    }
+}
+
 /// What the joints are called, base first. `None` if something has been reported.
 pub(super) fn joint_names(rows: &[JointTable], sink: &Sink) -> Option<Vec<String>> {
     let mut names: Vec<String> = Vec::new();
@@ -86,11 +95,11 @@ mod tests {
             ("\u{e9}", "shoulder_pan"),
         ] {
             assert!(!is_word(name), "{name}");
-            assert_eq!(proposal(name), expected);
+            assert_eq!(joint_name(name), expected);
             assert!(is_word(expected));
         }
         for name in ["J1", "shoulder_pan", "panda_joint1", "a"] {
-            assert!(is_word(name), "{name}");
+            assert_eq!(joint_name(name), name);
         }
         assert!(!is_word(&numbered(3)));
         assert!(!is_word(&"a".repeat(65)));

@@ -17,9 +17,12 @@ mod placement;
 mod validate;
 mod written;
 
+pub(crate) use convention::standard_to_modified;
 pub use description::Description;
 pub use inertia::{ImpossibleInertia, impossible_inertia};
+pub use joint_names::joint_name;
 pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
+pub use name::{is_keyword, name_for};
 pub use written::{TableText, shortest};
 
 use std::path::Path;
@@ -28,6 +31,7 @@ use sha2::{Digest, Sha256};
 use ulna::{Joint, Placement, TaskRows};
 
 use crate::diagnostics::{Diagnostics, Sink, TableErrors};
+use crate::lint::{self, Lint, Places};
 use crate::table::{AngleUnit, ArmTable, Author, Convention};
 use crate::toml_reader::read_file;
 
@@ -44,6 +48,7 @@ pub struct Model {
     payload: bool,
     joints: Vec<Joint>,
     joint_names: Vec<String>,
+    allow: Vec<Lint>,
     accept_inertia: Vec<bool>,
     convention: Convention,
     angle_unit: AngleUnit,
@@ -112,7 +117,13 @@ impl Model {
         let sink = Sink::new(source_name, text);
         let model = ArmTable::read(text, author, &sink).and_then(|mut table| {
             amend(&mut table, &sink);
-            table.into_model(&sink)
+            table.allow.iter().for_each(|lint| sink.allow(lint.name()));
+            let places = Places::of(&table);
+            let model = table.into_model(&sink)?;
+            if !sink.has_errors() {
+                lint::examine(&model, &places, &sink);
+            }
+            Some(model)
         });
         let found = sink.finish();
         match model {
@@ -130,6 +141,9 @@ impl Model {
 
 /// What is in it.
 impl Model {
+    /// The most joints that an arm may have.
+    pub const MAX_JOINTS: usize = ArmTable::MAX_JOINTS;
+
     /// The arm's name, `snake_case`, a Rust identifier that is no keyword.
     pub fn name(&self) -> &str {
         &self.name
@@ -173,6 +187,16 @@ impl Model {
     /// What the joints are called, base first: by their names, or `joint 1` where the table gives none. No two are the same.
     pub fn joint_names(&self) -> &[String] {
         &self.joint_names
+    }
+
+    /// The lints that the table switches off.
+    pub fn allow(&self) -> &[Lint] {
+        &self.allow
+    }
+
+    /// Whether the table switches `lint` off.
+    pub fn allows(&self, lint: Lint) -> bool {
+        self.allow.contains(&lint)
     }
 
     /// Whether a link's inertia was taken over although no rigid body can have it, base first: `accept_inertia` of a table.

@@ -36,7 +36,7 @@ impl ArmTable {
             .task
             .and_then(|rows| task_rows(&rows, joint_count, sink));
         let angles = self.angle_unit.map(|unit| Angles {
-            unit,
+            unit: unit.value,
             author: self.author,
         });
         let place = |table: Option<PlacementTable>, xyz: &Key| match table {
@@ -57,7 +57,8 @@ impl ArmTable {
         // Everything has been looked at: only from here on may a fault end the reading.
         let mut joints = joints?.into_iter().collect::<Option<Vec<_>>>()?;
         let mut tool = tool?;
-        if self.convention? == Convention::Standard {
+        let convention = self.convention?.value;
+        if convention == Convention::Standard {
             standard_to_modified(&mut joints, &mut tool);
         }
         let light = light_links(&joints, weights);
@@ -80,8 +81,9 @@ impl ArmTable {
             payload: self.payload,
             joints,
             joint_names: joint_names?,
+            allow: self.allow,
             accept_inertia: accepted.iter().map(Option::is_some).collect(),
-            convention: self.convention?,
+            convention,
             angle_unit: angles?.unit,
             table_hash: String::new(),
         })

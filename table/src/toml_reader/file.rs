@@ -46,7 +46,7 @@ pub fn read_file(folder: &Path, path: &Path, max_bytes: u64) -> Result<String, D
         })?;
     if bytes.len() as u64 > max_bytes {
         let message = format!("the file is larger than {} KiB", max_bytes / 1024);
-        let help = "an arm's table or a scenario is far smaller".to_owned();
+        let help = "what describes an arm or an experiment is far smaller".to_owned();
         return Err(refuse(message, Some(help)));
     }
     String::from_utf8(bytes).map_err(|error| {

@@ -98,6 +98,10 @@ impl fmt::Display for TableText<'_> {
         writeln!(text, "convention = \"{convention}\"")?;
         writeln!(text, "angle_unit = \"{}\"", self.unit.word())?;
         writeln!(text, "gravity = {}", Numbers(arm.gravity))?;
+        if !arm.allow.is_empty() {
+            let names: Vec<_> = arm.allow.iter().map(|lint| lint.name()).collect();
+            writeln!(text, "allow = {names:?}")?;
+        }
         if arm.joints.is_empty() {
             writeln!(text, "joint = []")?;
         }
