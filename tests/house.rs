@@ -15,6 +15,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("ulna-macros", &["ulna-codegen", "ulna-table"]),
     ("ulna-generated", &["ulna", "ulna-codegen"]),
     ("ulna-study", &["ulna", "ulna-table"]),
+    ("ulna-verify", &["ulna", "ulna-codegen", "ulna-table"]),
     (
         "ulna-cli",
         &[
@@ -24,6 +25,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ulna-study",
             "ulna-table",
             "ulna-urdf",
+            "ulna-verify",
         ],
     ),
 ];

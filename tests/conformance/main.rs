@@ -38,6 +38,11 @@ macro_rules! of_tables {
                 }
 
                 crate::suite::conformance!(*arm(), crate::chain::<$n>(stringify!($name)));
+
+                #[test]
+                fn passes_ulna_verify() {
+                    crate::verifies(&crate::model(stringify!($name)));
+                }
             })*
         }
     };
@@ -68,6 +73,13 @@ ulna_generated::for_each_arm!(compiled);
 fn model(name: &str) -> Model {
     let path = format!("{}/../arms/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     Model::load(path).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// What `ulna verify` does, at fewer states.
+fn verifies(model: &Model) {
+    let compiled = ulna_codegen::compile(model);
+    let found = ulna_verify::verify(model, compiled, 6, &|| ()).expect("threads to run in");
+    assert!(found.passes(), "{found:#?}");
 }
 
 fn chain<const N: usize>(name: &str) -> SerialChain<N> {
