@@ -61,7 +61,6 @@ pub(crate) fn describe(
     gravity(tree, chain, &mut report);
     let joints = segments.iter().zip(&kinds).zip(&drives).enumerate();
     let description = Description {
-        allow: Vec::new(),
         name,
         convention: Convention::Modified,
         gravity: [0.0, 0.0, -9.81],
@@ -73,7 +72,6 @@ pub(crate) fn describe(
             .map(|(i, ((segment, kind), drive))| joint(i, segment, *kind, drive, &rows))
             .collect(),
         joint_names: names.iter().cloned().map(Some).collect(),
-        allow: Vec::new(),
         accept_inertia: segments.iter().map(|segment| segment.accepted).collect(),
         allow: Vec::new(),
     };
