@@ -19,6 +19,7 @@ mod import;
 mod joints;
 mod man;
 mod methods;
+mod new;
 mod numbers;
 mod output;
 mod progress;
@@ -55,6 +56,7 @@ enum Command {
     Reproduce(reproduce::Arguments),
     Assess(assess::Arguments),
     Campaign(campaign::Arguments),
+    New(new::Arguments),
     Check(check::Arguments),
     Import(import::Arguments),
     Convert(convert::Arguments),
@@ -81,6 +83,7 @@ impl Command {
             Self::Reproduce(arguments) => reproduce::run(&arguments, out),
             Self::Assess(arguments) => assess::run(&arguments, out),
             Self::Campaign(arguments) => campaign::run(&arguments, out),
+            Self::New(arguments) => new::run(&arguments),
             Self::Check(arguments) => check::run(&arguments, out),
             Self::Import(arguments) => import::run(&arguments, out),
             Self::Convert(arguments) => convert::run(&arguments, out),

@@ -55,10 +55,8 @@ pub use format::reference;
 #[doc(hidden)]
 pub use format::{ANGLE_UNIT, RATED_TORQUE};
 pub use lint::Lint;
+pub use model::{Description, ImpossibleInertia, Model, TableText, impossible_inertia, name_for};
 #[doc(hidden)]
-pub use model::shortest;
-pub use model::{Description, ImpossibleInertia, Model, TableText, impossible_inertia};
-#[doc(hidden)]
-pub use model::{arm_name, joint_name};
+pub use model::{is_keyword, joint_name, shortest};
 pub use pose::Pose;
 pub use table::{AngleUnit, Convention};

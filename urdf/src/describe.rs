@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ulna::{Angle, Joint, JointKind, Link, Motor, Placement, TaskRow, TaskRows};
 use ulna_table::diagnostics::{Diagnostic, Diagnostics, Sink};
-use ulna_table::{Convention, Description, Model, arm_name};
+use ulna_table::{Convention, Description, Model, name_for};
 
 use crate::chain::Chain;
 use crate::drive::{Drive, drive};
@@ -150,7 +150,7 @@ fn name(import: &Import, tree: &Tree, report: &mut Report) -> Option<String> {
     let Some(name) = &import.name else {
         return Some(robot_name(tree.robot.name.as_deref(), report));
     };
-    let proper = arm_name(name);
+    let (proper, _) = name_for(name);
     if proper != *name {
         let message = format!("no arm can be called `{name}`");
         report.push(Diagnostic::file_error(message).help(format!(

@@ -1,6 +1,6 @@
 //! Names that a table admits, made of those that a description has.
 
-use ulna_table::{arm_name, joint_name};
+use ulna_table::{joint_name, name_for};
 
 use crate::note::NoteKind;
 use crate::report::Report;
@@ -42,7 +42,7 @@ pub(crate) fn joint_names(joints: &[&JointElement], report: &mut Report) -> Vec<
 /// A name for the arm: that of the robot, as far as a table admits it.
 pub(crate) fn robot_name(robot: Option<&str>, report: &mut Report) -> String {
     let written = robot.unwrap_or_default();
-    let name = arm_name(written);
+    let (name, _) = name_for(written);
     if name != written {
         let message = if written.is_empty() {
             format!("the robot has no name: the arm is called `{name}`; `--name` gives it another")

@@ -21,6 +21,11 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     Staged::write(path, bytes)?.persist()
 }
 
+/// Writes `bytes` to a new file: what stands at `path` already stays as it is, and is an error.
+pub(crate) fn write_new(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    Staged::write(path, bytes)?.persist_new()
+}
+
 /// A file that is written, but has not got its name yet. Dropped, it leaves nothing.
 struct Staged {
     file: NamedTempFile,
@@ -49,6 +54,15 @@ impl Staged {
     fn persist(self) -> anyhow::Result<()> {
         let Self { file, path, target } = self;
         file.persist(target)
+            .map(drop)
+            .map_err(|failed| failed.error)
+            .with_context(|| cannot_write(&path))
+    }
+
+    /// The same where no file may have that name yet.
+    fn persist_new(self) -> anyhow::Result<()> {
+        let Self { file, path, target } = self;
+        file.persist_noclobber(target)
             .map(drop)
             .map_err(|failed| failed.error)
             .with_context(|| cannot_write(&path))
@@ -139,6 +153,32 @@ impl Files {
     pub(crate) fn write_to(self, folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
         // Dropped last: after the files in them.
         let mut made = MadeFolders(Vec::new());
+        let mut paths = Vec::new();
+        for file in self.stage(folder, &mut made)? {
+            paths.push(file.path.clone());
+            file.persist()?;
+            made.keep();
+        }
+        Ok(paths)
+    }
+
+    /// Writes all of them as new files into `folder`, which is made if need be, and returns their paths.
+    ///
+    /// Whatever fails, a file that is there already among it: none of them is left, and none of the folders made for them.
+    pub(crate) fn write_new_to(self, folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+        let mut made = MadeFolders(Vec::new());
+        let mut written = WrittenFiles(Vec::new());
+        for file in self.stage(folder, &mut made)? {
+            let path = file.path.clone();
+            file.persist_new()?;
+            written.0.push(path);
+        }
+        made.keep();
+        Ok(written.keep())
+    }
+
+    /// Writes all of them, but none under its name yet.
+    fn stage(self, folder: &Path, made: &mut MadeFolders) -> anyhow::Result<Vec<Staged>> {
         let mut staged = Vec::new();
         for (name, bytes) in self.0 {
             let path = folder.join(name);
@@ -147,13 +187,24 @@ impl Files {
                 .with_context(|| format!("cannot make the folder {}", parent.display()))?;
             staged.push(Staged::write(&path, &bytes)?);
         }
-        let mut paths = Vec::new();
-        for file in staged {
-            paths.push(file.path.clone());
-            file.persist()?;
-            made.keep();
+        Ok(staged)
+    }
+}
+
+/// New files that have their names while others wait for theirs. Dropped before they are kept, they are removed again.
+struct WrittenFiles(Vec<PathBuf>);
+
+impl WrittenFiles {
+    fn keep(mut self) -> Vec<PathBuf> {
+        std::mem::take(&mut self.0)
+    }
+}
+
+impl Drop for WrittenFiles {
+    fn drop(&mut self) {
+        for file in &self.0 {
+            let _ = fs::remove_file(file);
         }
-        Ok(paths)
     }
 }
 

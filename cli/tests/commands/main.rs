@@ -9,6 +9,7 @@ mod generate;
 mod help;
 mod import;
 mod methods;
+mod new;
 mod reproduce;
 mod support;
 mod verify;

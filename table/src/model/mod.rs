@@ -22,7 +22,7 @@ pub use description::Description;
 pub use inertia::{ImpossibleInertia, impossible_inertia};
 pub use joint_names::joint_name;
 pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
-pub use name::arm_name;
+pub use name::{is_keyword, name_for};
 pub use written::{TableText, shortest};
 
 use std::path::Path;

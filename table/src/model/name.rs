@@ -21,6 +21,20 @@ pub(super) fn type_name(name: &str) -> String {
     name.to_upper_camel_case()
 }
 
+/// What an arm can be called that is to be called `text`, such as the stem of a file's name: `text` itself, or else a name close to it,
+/// together with what is wrong with `text`. For programs that write tables.
+///
+/// ```
+/// assert_eq!(ulna_table::name_for("ur5e"), ("ur5e".to_owned(), None));
+/// assert_eq!(ulna_table::name_for("fn"), ("arm_fn".to_owned(), Some("is a keyword of Rust")));
+/// ```
+pub fn name_for(text: &str) -> (String, Option<&'static str>) {
+    match fault(text) {
+        None => (text.to_owned(), None),
+        Some(fault) => (proposal(text), Some(fault)),
+    }
+}
+
 /// Why `name` cannot name an arm, and what to write instead.
 pub(super) fn check(name: &str) -> Result<(), (&'static str, String)> {
     let fault = fault(name);
@@ -30,14 +44,6 @@ pub(super) fn check(name: &str) -> Result<(), (&'static str, String)> {
             let proposal = proposal(name);
             Err((fault, format!("write for example `name = \"{proposal}\"`")))
         }
-    }
-}
-
-/// `name`, if an arm can be called so, or else a name close to it that an arm can have.
-pub fn arm_name(name: &str) -> String {
-    match fault(name) {
-        None => name.to_owned(),
-        Some(_) => proposal(name),
     }
 }
 
@@ -66,8 +72,8 @@ fn fault(name: &str) -> Option<&'static str> {
     }
 }
 
-/// Strict and reserved keywords of all editions. None of them may name a module.
-fn is_keyword(name: &str) -> bool {
+/// Strict and reserved keywords of all editions, and what is no identifier. None of them may name a module or a crate.
+pub fn is_keyword(name: &str) -> bool {
     // Reserved since edition 2024, and no keyword to `syn`.
     name == "gen" || syn::parse_str::<syn::Ident>(name).is_err()
 }
@@ -89,7 +95,11 @@ fn proposal(name: &str) -> String {
         .take(MAX_LENGTH / 2)
         .collect();
     let snake = ascii.to_snake_case();
-    let candidates = [snake.clone(), format!("arm_{snake}")];
+    let prefixed = match snake.as_str() {
+        "arm" => "my_arm".to_owned(),
+        snake => format!("arm_{snake}"),
+    };
+    let candidates = [snake, prefixed];
     let passing = candidates.into_iter().find(|name| fault(name).is_none());
     passing.unwrap_or_else(|| "my_arm".to_owned())
 }
@@ -130,7 +140,7 @@ mod tests {
             ("arm_2_", "arm_2"),
             ("n", "arm_n"),
             ("vec", "arm_vec"),
-            ("arm", "arm_arm"),
+            ("arm", "my_arm"),
             ("task_rows", "arm_task_rows"),
             ("nul", "arm_nul"),
             ("arms", "arm_arms"),
