@@ -36,7 +36,7 @@ def main():
 
 def counted():
     """Rows of arm, quantity and instructions a call."""
-    cargo = ["cargo", "build", "--quiet", "--release", "--package", "ulna-peers", "--target-dir", TARGET]
+    cargo = ["cargo", "build", "--quiet", "--release", "--package", "ulna-peers", "--features", "all-arms", "--target-dir", TARGET]
     subprocess.run(cargo, cwd=ROOT, check=True)
     library = TARGET / "release/libulna_peers.so"
     pairs = [(table.stem, quantity) for table in sorted((ROOT / "arms").glob("*.toml")) for quantity in methods(library)]

@@ -5,6 +5,7 @@ use ulna::SerialChain;
 use ulna_study::experiment::AnyArm;
 use ulna_study::scenario::{KnownArm, ScenarioArm};
 
+use crate::console;
 use crate::joints::{ForChain, with_chain};
 
 /// What to do with an arm, whatever its backend and its number of joints.
@@ -42,7 +43,7 @@ macro_rules! generated_arms {
 }
 ulna_generated::for_each_arm!(generated_arms);
 
-/// Runs `work` on generated code where there is some, and on the generic path otherwise.
+/// Runs `work` on generated code where there is some, and otherwise on the generic path, which it says: a command calls it once.
 ///
 /// # Errors
 /// When the arm has more joints than the program was compiled for.
@@ -56,7 +57,15 @@ pub(crate) fn with_arm<W: ForArm>(arm: &ScenarioArm, work: W) -> anyhow::Result<
     }
     match arm {
         ScenarioArm::Known(known) => with_generated(known.name, work),
-        ScenarioArm::Table { model, .. } => with_chain(model, OnChain(work)),
+        ScenarioArm::Table { path, model } => {
+            console::note(&format!(
+                "arm `{}` of {} is not compiled into the program: it runs by the textbook formulas, \
+                 slower, with the same numbers but for rounding",
+                model.name(),
+                path.display()
+            ));
+            with_chain(model, OnChain(work))
+        }
     }
 }
 

@@ -7,17 +7,12 @@ use ulna::Parameter;
 use ulna_codegen::{BaseParameter, BaseParameters};
 use ulna_table::Model;
 
-/// A line for each, or JSON; links count from 1.
+/// A line for each; links count from 1.
 ///
 /// # Errors
 /// What writing fails with.
-pub(crate) fn print(model: &Model, as_json: bool, out: &mut dyn Write) -> io::Result<()> {
+pub(crate) fn write(model: &Model, out: &mut dyn Write) -> io::Result<()> {
     let base = BaseParameters::of(model);
-    if as_json {
-        let list: Vec<Value> = base.list().iter().map(value).collect();
-        let all = json!({ "arm": model.name(), "base_parameters": list });
-        return writeln!(out, "{all:#}");
-    }
     writeln!(
         out,
         "{}: {} base parameters of {} inertial ones, about the origins of the links' frames",
@@ -28,6 +23,12 @@ pub(crate) fn print(model: &Model, as_json: bool, out: &mut dyn Write) -> io::Re
     base.list()
         .iter()
         .try_for_each(|base| writeln!(out, "{base}"))
+}
+
+/// All of them as JSON; links count from 1.
+pub(crate) fn json(model: &Model) -> Value {
+    let list: Vec<Value> = BaseParameters::of(model).list().iter().map(value).collect();
+    json!({ "arm": model.name(), "base_parameters": list })
 }
 
 fn value(base: &BaseParameter) -> Value {

@@ -9,6 +9,9 @@ use ulna_table::{Model, TableErrors};
 
 use crate::Generator;
 
+/// The file of the list: a name that no arm may have.
+const LIST: &str = "arms";
+
 /// Why a build script could not write its arms.
 #[derive(thiserror::Error)]
 pub enum Error {
@@ -79,13 +82,18 @@ pub(crate) fn compile_arms_with(
     generator: &Generator,
     tables: &[impl AsRef<Path>],
 ) -> Result<(), Error> {
+    watch(tables);
+    compile_into_out_dir(generator, &load_all(tables)?)
+}
+
+/// Tells cargo to run the script again when one of `tables` changes.
+fn watch(tables: &[impl AsRef<Path>]) {
     for table in tables {
         println!(
             "cargo::rerun-if-changed={}",
             watched(table.as_ref()).display()
         );
     }
-    compile_into_out_dir(generator, tables).map(drop)
 }
 
 /// What cargo is told to watch for `table`: its folder if there is a line break in its name, because what follows one
@@ -98,23 +106,38 @@ fn watched(table: &Path) -> &Path {
     }
 }
 
-/// [`compile_arms`] for every table of a folder, in alphabetical order, and `$OUT_DIR/arms.rs` over them:
-/// it includes every arm, and defines a macro that lists them.
+/// [`compile_arms`], and `$OUT_DIR/arms.rs` over `tables`, in their order: it includes every arm, and defines a macro that lists them.
 ///
 /// `for_each_arm!(callback)` expands to `callback! { (Ssrms, ssrms, 7) … }`: type, name and joints of each.
 /// `Ssrms::default()` is a value of any such type, whether or not it holds a payload.
 ///
 /// # Errors
-/// As [`compile_arms`], and if the folder cannot be read.
+/// As [`compile_arms`].
+pub fn compile_listed(tables: &[impl AsRef<Path>]) -> Result<(), Error> {
+    Generator::new().compile_listed(tables)
+}
+
+/// [`compile_listed`] by `generator`.
+pub(crate) fn compile_listed_with(
+    generator: &Generator,
+    tables: &[impl AsRef<Path>],
+) -> Result<(), Error> {
+    watch(tables);
+    list_into_out_dir(generator, tables)
+}
+
+/// [`compile_listed`] for every table of a folder, in alphabetical order. The script runs again when anything in the folder changes.
+///
+/// # Errors
+/// As [`compile_listed`], and if the folder cannot be read.
 pub fn compile_folder(folder: impl AsRef<Path>) -> Result<(), Error> {
     Generator::new().compile_folder(folder)
 }
 
 /// [`compile_folder`] by `generator`.
 pub(crate) fn compile_folder_with(generator: &Generator, folder: &Path) -> Result<(), Error> {
-    println!("cargo::rerun-if-changed={}", watched(folder).display());
-    let models = compile_into_out_dir(generator, &tables_of(folder)?)?;
-    write_to_out_dir("arms", &list(&models))
+    watch(&[folder]);
+    list_into_out_dir(generator, &tables_of(folder)?)
 }
 
 fn tables_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
@@ -136,16 +159,16 @@ fn tables_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     Ok(tables)
 }
 
-fn list(models: &[Model]) -> String {
+fn list(models: &[(&Path, Model)]) -> String {
     let includes = models
         .iter()
-        .map(|model| format!("include!(\"{}.rs\");\n", model.name()));
-    let entries = models.iter().map(|model| {
+        .map(|(_, model)| format!("include!(\"{}.rs\");\n", model.name()));
+    let entries = models.iter().map(|(_, model)| {
         let joints = model.joints().len();
         format!(" ({}, {}, {joints})", model.type_name(), model.name())
     });
     format!(
-        "{}\n/// Expands to `callback! {{ (Type, name, joints) … }}` over every arm.\n\
+        "{}\n/// Expands to `callback! {{ (Type, name, joints) … }}` over every arm that is compiled.\n\
          #[macro_export]\nmacro_rules! for_each_arm {{\n    \
          ($callback:ident) => {{ $callback! {{{} }} }};\n}}\n",
         includes.collect::<String>(),
@@ -153,19 +176,21 @@ fn list(models: &[Model]) -> String {
     )
 }
 
-fn compile_into_out_dir(
-    generator: &Generator,
-    tables: &[impl AsRef<Path>],
-) -> Result<Vec<Model>, Error> {
+fn list_into_out_dir(generator: &Generator, tables: &[impl AsRef<Path>]) -> Result<(), Error> {
     let models = load_all(tables)?;
-    for (path, model) in &models {
+    compile_into_out_dir(generator, &models)?;
+    write_to_out_dir(LIST, &list(&models))
+}
+
+fn compile_into_out_dir(generator: &Generator, models: &[(&Path, Model)]) -> Result<(), Error> {
+    for (path, model) in models {
         let generated = generator.generate(model, &path.display().to_string());
         for sentence in generated.warnings() {
             warn(&format!("{}: {sentence}", path.display()));
         }
         write_to_out_dir(model.name(), &generated.source())?;
     }
-    Ok(models.into_iter().map(|(_, model)| model).collect())
+    Ok(())
 }
 
 /// Writes `$OUT_DIR/<name>.rs` whole or not at all.

@@ -102,6 +102,14 @@ impl Generator {
         build::compile_arms_with(self, tables)
     }
 
+    /// As [`compile_listed`](crate::compile_listed).
+    ///
+    /// # Errors
+    /// As there.
+    pub fn compile_listed(&self, tables: &[impl AsRef<Path>]) -> Result<(), Error> {
+        build::compile_listed_with(self, tables)
+    }
+
     /// As [`compile_folder`](crate::compile_folder).
     ///
     /// # Errors

@@ -12,7 +12,7 @@
 //!
 //! # Where to go
 //!
-//! - [`compile_arms`] and [`compile_folder`]: for build scripts. The crate `ulna-macros` does it without one, the program `ulna` by hand.
+//! - [`compile_arms`], [`compile_listed`] and [`compile_folder`]: for build scripts. The crate `ulna-macros` does it without one, the program `ulna` by hand.
 //! - [`Generator`]: all that for some methods alone.
 //! - [`generate`]: a [`Model`] in, [`Generated`] code out, as text or tokens.
 //! - [`compile`]: the [`Program`]s that code is printed from, for whoever prints them in another way.
@@ -58,7 +58,7 @@ use ulna_table::{Lint, Model};
 
 pub use accuracy::Conditioned;
 pub use base_parameters::{BaseParameter, BaseParameters, Term};
-pub use build::{Error, compile_arms, compile_folder};
+pub use build::{Error, compile_arms, compile_folder, compile_listed};
 pub use cost::Counts;
 pub use double_double::DoubleDouble;
 pub use emit::Generated;

@@ -60,7 +60,10 @@ impl<'a, const N: usize> Judge<'a, N> {
 
     /// The reference's w_D and ∇w_D.
     fn expected_gradient(&self) -> (f64, Vector<N>) {
-        let gradient = || self.reference.dynamic_manipulability_gradient(&self.state.q);
+        let gradient = || {
+            self.reference
+                .dynamic_manipulability_gradient(&self.state.q)
+        };
         *self.gradient.get_or_init(gradient)
     }
 

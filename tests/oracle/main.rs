@@ -1,4 +1,4 @@
-//! Every arm of `arms/`, by the textbook and generated, against numbers made outside: Pinocchio's, and mpmath's to 40 digits
+//! Every arm of `arms/` that there are numbers for, by the textbook and as compiled, against those made outside: Pinocchio's, and mpmath's to 40 digits
 //! (the scripts beside this file). A module for each family of quantities, whose numbers stand in `data/<arm>.<family>.jsonl`.
 //!
 //! `cargo test --test oracle -- --nocapture` prints the largest errors.
@@ -123,18 +123,29 @@ fn states<const N: usize>(name: &str) -> Vec<State<N>> {
         .collect()
 }
 
-macro_rules! backends {
-    ($(($Type:ident, $name:ident, $n:literal))*) => {
-        mod generic {
-            $(mod $name {
-                crate::both!("generic", stringify!($name), crate::chain::<$n>(stringify!($name)));
-            })*
-        }
+include!(concat!(env!("OUT_DIR"), "/tables.rs"));
+include!(concat!(env!("OUT_DIR"), "/measured.rs"));
 
+macro_rules! of_tables {
+    ($(($name:ident, $n:literal))*) => {
+        mod generic {
+            $(if_measured! { $name {
+                mod $name {
+                    crate::both!("generic", stringify!($name), crate::chain::<$n>(stringify!($name)));
+                }
+            } })*
+        }
+    };
+}
+
+macro_rules! compiled {
+    ($(($Type:ident, $name:ident, $n:literal))*) => {
         mod generated {
-            $(mod $name {
-                crate::both!("generated", stringify!($name), ulna_generated::$Type::default());
-            })*
+            $(if_measured! { $name {
+                mod $name {
+                    crate::both!("generated", stringify!($name), ulna_generated::$Type::default());
+                }
+            } })*
         }
     };
 }
@@ -174,4 +185,5 @@ macro_rules! both {
 }
 use both;
 
-ulna_generated::for_each_arm!(backends);
+for_each_table!(of_tables);
+ulna_generated::for_each_arm!(compiled);

@@ -88,8 +88,13 @@ impl Body {
             ..*self
         };
         let thicker = impossible_inertia(&thicker.inertia_rows())?;
-        let [least, _, largest] = found.principal;
-        if least >= 0.0 {
+        let [least, middle, largest] = found.principal;
+        // Two moments of 0 come out of a tensor's eigenvalues on either side of it.
+        if least.abs() <= allowance && middle.abs() <= allowance {
+            let numbers = format!("{}: the sum of the other two is 0", found.numbers());
+            return Some((thicker.rule().to_owned(), numbers));
+        }
+        if least >= -allowance {
             return Some((thicker.rule().to_owned(), thicker.numbers()));
         }
         let percent = -100.0 * least / largest.abs().max(-least);
@@ -148,6 +153,9 @@ mod tests {
         for (diagonal, expected) in [
             ([1.0, 1.0, 2.5], ": beyond the sum by 25.0 %"),
             ([0.0, 1.0, 1.2], ": beyond the sum by 20.0 %"),
+            ([-1e-17, 1.0, 1.2], ": beyond the sum by 20.0 %"),
+            ([0.0, 0.0, 1.0], ": the sum of the other two is 0"),
+            ([-1e-17, 1e-17, 1.0], ": the sum of the other two is 0"),
             ([-0.5, 2.0, 2.0], ": below 0 by 25.0 % of the largest"),
             ([-2.0, -1.0, -0.5], ": below 0 by 100.0 % of the largest"),
         ] {

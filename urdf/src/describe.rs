@@ -18,8 +18,9 @@ use crate::names::{joint_names, robot_name};
 use crate::note::NoteKind;
 use crate::report::Report;
 use crate::robot::{JointElement, Motion};
-use crate::rows::{Moving, NearlyParallel, Rows, rows, tidy};
+use crate::rows::{Moving, NearlyParallel, Rows, rows};
 use crate::task::task;
+use crate::tidied;
 use crate::tree::Tree;
 
 /// The arm that the bodies of `assembly` make. `None` if something has been reported.
@@ -46,6 +47,11 @@ pub(crate) fn describe(
     let rows = rows(&moving, &tool);
     doubts(tree, chain, &rows, &report);
     let rows = rows.ok()?;
+    let rows = Rows {
+        base: tidied::frame(&rows.base),
+        tool: tidied::frame(&rows.tool),
+        ..rows
+    };
     let (name, drives) = (name?, drives.into_iter().collect::<Option<Vec<_>>>()?);
     let names = joint_names(&elements, &mut report);
     let kinds: Vec<JointKind> = elements.iter().map(|joint| kind(joint)).collect();
@@ -55,6 +61,7 @@ pub(crate) fn describe(
     gravity(tree, chain, &mut report);
     let joints = segments.iter().zip(&kinds).zip(&drives).enumerate();
     let description = Description {
+        allow: Vec::new(),
         name,
         convention: Convention::Modified,
         gravity: [0.0, 0.0, -9.81],
@@ -66,6 +73,7 @@ pub(crate) fn describe(
             .map(|(i, ((segment, kind), drive))| joint(i, segment, *kind, drive, &rows))
             .collect(),
         joint_names: names.iter().cloned().map(Some).collect(),
+        allow: Vec::new(),
         accept_inertia: segments.iter().map(|segment| segment.accepted).collect(),
         allow: Vec::new(),
     };
@@ -164,9 +172,8 @@ fn name(import: &Import, tree: &Tree, report: &mut Report) -> Option<String> {
 
 fn joint(index: usize, segment: &Segment, kind: JointKind, drive: &Drive, rows: &Rows) -> Joint {
     let row = &rows.rows[index];
-    let body = segment
-        .body
-        .seen_from(&rows.in_joint_frame[index].inverse());
+    let row_from_joint = rows.in_joint_frame[index].inverse();
+    let body = tidied::body(&segment.body.seen_from(&row_from_joint));
     Joint {
         kind,
         alpha: Angle::from_radians(row.alpha),
@@ -179,15 +186,10 @@ fn joint(index: usize, segment: &Segment, kind: JointKind, drive: &Drive, rows: 
         friction: drive.friction,
         link: Link {
             mass: body.mass,
-            com: body.com.map(plain).into(),
+            com: body.com.into(),
             inertia: body.inertia_rows(),
         },
     }
-}
-
-/// A coordinate without the digits that only the rounding of a sum or two has put there.
-fn plain(coordinate: f64) -> f64 {
-    tidy(coordinate, 4.0 * f64::EPSILON * coordinate.abs())
 }
 
 fn placement(frame: &Frame) -> Placement {
@@ -202,7 +204,7 @@ fn say_rounding(distance: f64, report: &mut Report) {
     const ROUNDING: f64 = 1e-12;
     if distance > ROUNDING {
         let message = format!(
-            "by the table's rows the tool is up to {distance:.1e} m and rad from where the description has it: quarter turns that are written to ten digits or more are taken as whole, and lengths to 1e-13 m"
+            "by the table's rows the tool is up to {distance:.1e} m and rad from where the description has it: quarter turns that are written to ten digits or more are taken as whole, and digits beyond 1e-13 left out"
         );
         report.note(NoteKind::Assumed, message);
     }

@@ -76,6 +76,7 @@ mod robot;
 mod rows;
 mod suspicious;
 mod task;
+mod tidied;
 mod tree;
 mod xml;
 

@@ -102,7 +102,7 @@ fn imported(robot: &Robot) -> Option<Imported> {
 
 /// What rounding may make of numbers up to a few metres and radians, where common normals are as far away as the rows allow, or near by.
 const FAR: f64 = 2e-11;
-const NEAR: f64 = 1e-12;
+const NEAR: f64 = 2e-12;
 
 /// The imported arm and its table against the tree, at a few configurations.
 fn check<const N: usize>(robot: &Robot, tolerance: f64, random: &mut Random) {

@@ -54,7 +54,9 @@ impl<const N: usize> Sides<N> {
             textbook: chain,
             ..
         } = self;
-        let reported = |candidate: &dyn Arm<N>| proof::compare_methods(*methods, candidate, exact, chain, state);
+        let reported = |candidate: &dyn Arm<N>| {
+            proof::compare_methods(*methods, candidate, exact, chain, state)
+        };
         Verified {
             emitted: reported(emitted),
             textbook: reported(chain),

@@ -164,7 +164,8 @@ def rust_libraries(table: Path):
     libraries = []
     for flags, rustflags in RUST_FLAGS.items():
         target = BUILD / f"rust-{flags}"
-        cargo = ["cargo", "build", "--release", "--package", "ulna-peers", "--target-dir", target]
+        # A crate with the arm in question, whichever it is.
+        cargo = ["cargo", "build", "--release", "--package", "ulna-peers", "--features", f"ulna-generated/{table.stem}", "--target-dir", target]
         run(cargo, cwd=ROOT, env=os.environ | {"RUSTFLAGS": rustflags})
         path = target / "release/libulna_peers.so"
         libraries += [

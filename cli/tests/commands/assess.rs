@@ -5,6 +5,7 @@ use std::fs;
 use serde_json::Value;
 use tempfile::TempDir;
 
+use crate::by_table::TOLD;
 use crate::support::{edited_scenario, stderr, stdout, ulna};
 
 /// A folder with `coarse.toml`: the paper-like scenario on a grid of few failures, and `edits`.
@@ -126,7 +127,9 @@ force_budgets = [0]
 "#;
     fs::write(folder.path().join("two.toml"), scenario).unwrap();
     let output = path(&folder, "out");
-    ulna(&["assess", &path(&folder, "two.toml"), "--output", &output]).code(0);
+    let run = ulna(&["assess", &path(&folder, "two.toml"), "--output", &output]);
+    let told = stderr(&run.code(0));
+    assert_eq!(told.matches(TOLD).count(), 1, "{told}");
     let text = fs::read_to_string(folder.path().join("out/assess.json")).unwrap();
     let results: Value = serde_json::from_str(&text).unwrap();
     for law in results["laws"].as_array().unwrap() {

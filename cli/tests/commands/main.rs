@@ -1,6 +1,7 @@
 //! The commands, run as a user runs them: exit code, stdout, stderr, and the files that are written or not.
 
 mod assess;
+mod by_table;
 mod campaign;
 mod check;
 mod convert;

@@ -19,10 +19,10 @@ use quote::{format_ident, quote};
 use ulna::{Method, MethodSet};
 use ulna_table::Model;
 
-use crate::{Compiled, Stage};
 use crate::accuracy::{ALLOWANCE, Conditioned, LEAST_VOLUME, rounded_up};
 use crate::cost::Counts;
 use crate::op::Op;
+use crate::{Compiled, Stage};
 
 /// The code of an arm.
 #[derive(Debug)]

@@ -119,7 +119,7 @@ mod tests {
             "my_arm",
         ] {
             assert_eq!(check(name), Ok(()), "{name}");
-            assert_eq!(arm_name(name), name);
+            assert_eq!(name_for(name).0, name);
         }
     }
 
@@ -150,7 +150,7 @@ mod tests {
         ];
         for (name, expected) in cases {
             assert!(check(name).is_err(), "{name}");
-            assert_eq!(arm_name(name), expected, "{name}");
+            assert_eq!(name_for(name).0, expected, "{name}");
             assert_eq!(check(expected), Ok(()), "{expected}");
         }
         assert!(check(&"a".repeat(65)).is_err());

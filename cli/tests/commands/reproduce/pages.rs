@@ -5,12 +5,15 @@ use std::fs;
 use serde_json::Value;
 
 use super::{numbers, planar_scenario, quick_scenario, reproduce};
-use crate::support::stdout;
+use crate::by_table::TOLD;
+use crate::support::{stderr, stdout};
 
 #[test]
 fn a_table_runs_on_the_generic_path() {
     let folder = planar_scenario();
-    let out = stdout(&reproduce(&folder).code(0));
+    let run = reproduce(&folder).code(0);
+    let (out, told) = (stdout(&run), stderr(&run));
+    assert_eq!(told.matches(TOLD).count(), 1, "{told}");
     assert!(
         out.starts_with("by_table: arm my_arm, joint 2 locks\n"),
         "{out}"
