@@ -87,7 +87,7 @@ pub(crate) static LINK: Key = Key::required(
 static LINK_SECTION: Section = Section {
     header: "[joint.link]",
     meaning: "Once below each `[[joint]]`: the rigid body that moves with it",
-    example: "[joint.link]\nmass = 2.5\ncom = [0.0, 0.0, 0.1]\ninertia = { xx = 0.02, yy = 0.02, zz = 0.01, xy = 0.0, xz = 0.0, yz = 0.0 }\n",
+    example: "[joint.link]\nmass = 2.5\ncom = [0.0, 0.0, 0.1]\ninertia = { xx = 0.02, yy = 0.02, zz = 0.01, xy = 0.0, xz = 0.0, yz = 0.0 }\naccept_inertia = false\n",
     keys: &[&MASS, &COM, &INERTIA, &ACCEPT_INERTIA],
 };
 pub(crate) static MASS: Key = Key::required(
