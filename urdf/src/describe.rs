@@ -73,9 +73,7 @@ pub(crate) fn describe(
             .map(|(i, ((segment, kind), drive))| joint(i, segment, *kind, drive, &rows))
             .collect(),
         joint_names: names.iter().cloned().map(Some).collect(),
-        allow: Vec::new(),
         accept_inertia: segments.iter().map(|segment| segment.accepted).collect(),
-        allow: Vec::new(),
     };
     let model = match Model::new(&description) {
         Ok(model) => model,
