@@ -61,7 +61,6 @@ pub(crate) fn describe(
     gravity(tree, chain, &mut report);
     let joints = segments.iter().zip(&kinds).zip(&drives).enumerate();
     let description = Description {
-        allow: Vec::new(),
         name,
         convention: Convention::Modified,
         gravity: [0.0, 0.0, -9.81],
