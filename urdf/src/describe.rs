@@ -73,6 +73,7 @@ pub(crate) fn describe(
             .collect(),
         joint_names: names.iter().cloned().map(Some).collect(),
         accept_inertia: segments.iter().map(|segment| segment.accepted).collect(),
+        allow: Vec::new(),
     };
     let model = match Model::new(&description) {
         Ok(model) => model,
