@@ -8,7 +8,7 @@ ROADS = ("generated", "textbook")
 
 def differences(ours, reference):
     """The largest difference of each quantity, over all states and entries, divided by its largest entry in all states; where all of a
-    quantity is smaller than one part in 1e12 of its unit, as the gravity of an upright wrist, undivided."""
+    quantity is smaller than a millionth of its unit, as the gravity of an arm that turns upright, undivided."""
     found = {}
     for quantity in QUANTITIES:
         theirs = np.array([values[quantity] for values in reference])
@@ -17,5 +17,5 @@ def differences(ours, reference):
         if own.shape != theirs.shape:
             raise ValueError(f"{quantity}: {own.shape} for {theirs.shape}")
         largest = np.abs(own - theirs).max()
-        found[quantity] = float(largest / scale if scale > 1e-12 else largest)
+        found[quantity] = float(largest / scale if scale > 1e-6 else largest)
     return found

@@ -1,5 +1,8 @@
 """docs/urdf.md."""
 
+import re
+from collections import Counter
+
 from robots.comparison import QUANTITIES
 from robots.trial import SAMPLES, STATES, TOLERANCE
 
@@ -20,13 +23,15 @@ def page(trials, versions, pinocchio):
     if wrong:
         parts += ["## Wrong", *map(failure, wrong)]
     parts += ["## Imported", table(good)]
+    parts += ["## Refused", reasons(refused)]
     parts += ["## Refused, in full", *said(trial for trial in refused if trial not in brief)]
     parts += ["## Refused until a chain is chosen", listed(brief)]
     parts += ["## What was said of those imported", FOOTNOTE, *said(good)]
     return "\n\n".join(parts) + "\n"
 
 
-FOOTNOTE = """By `ulna import`. Two notes that each of them has are left out: which rows of J the task has, and that gravity is assumed."""
+FOOTNOTE = """By `ulna import`; of what `ulna check` adds, the first lines. Two notes that each of them has are left out: which rows of J the task has,
+and that gravity is assumed."""
 
 
 def introduction(trials, good, refused, wrong, versions, pinocchio):
@@ -67,6 +72,15 @@ def table(trials):
     return markdown(head, rows, ["---", "---", *["---:"] * (len(head) - 2)])
 
 
+def reasons(trials):
+    """Every error of every refusal, by its words without the names and numbers in it."""
+    errors = Counter()
+    for trial in trials:
+        words = [line.removeprefix("error: ") for line in trial.said.splitlines() if line.startswith("error: ")]
+        errors.update({re.sub(r"\b\d+\b", "N", re.sub("`[^`]*`", "`...`", line)) for line in words})
+    return markdown(["error", "imports"], errors.most_common(), ["---", "---:"])
+
+
 def listed(trials):
     rows = [[f"{trial.wheel}: {trial.file}", trial.said.splitlines()[0].removeprefix("error: ")] for trial in trials]
     return markdown(["description", "the first line of the error, after which the chains are listed"], rows, ["---", "---"])
@@ -89,11 +103,13 @@ def waits(trial):
 
 
 def said(trials):
-    """What `ulna import` said, the same words under one heading."""
+    """What was said, the same words under one heading."""
     groups = {}
     for trial in trials:
-        words = "\n".join(line for line in trial.said.splitlines() if not line.startswith(ALWAYS))
-        groups.setdefault(words, []).append(trial)
+        lines = [line for line in trial.said.splitlines() if not line.startswith(ALWAYS)]
+        added = [line for line in trial.check_said.splitlines() if line.startswith("warning: ") and line not in lines]
+        words = "\n".join([*lines, *(["", *(f"check: {line}" for line in added)] if added else [])])
+        groups.setdefault(words.strip(), []).append(trial)
     for words, alike in groups.items():
         if words:
             names = [f"`{trial.wheel}: {trial.title}`" + (f": {trial.why}" if trial.why else "") for trial in alike]
