@@ -127,3 +127,13 @@ fn no_configuration_is_farther() {
         }
     }
 }
+
+/// Maximum reach: Franka Emika Panda 0.855 m and Kinova Gen3 0.902 m, and from axis 2 of a KUKA LBR iiwa 14 R820 0.820 m
+/// to the wrist's centre, 0.126 m before the flange.
+#[test]
+fn the_reach_is_that_of_data_sheets() {
+    for (name, sheet) in [("franka_panda", 0.855), ("gen3", 0.902), ("iiwa_14", 0.946)] {
+        let reach = arm(name).reach();
+        assert!((reach - sheet).abs() < 0.004, "{name}: {reach}");
+    }
+}
