@@ -6,9 +6,11 @@ use nalgebra::Vector3;
 
 use crate::rows::{ROUNDING, SLACK};
 
-/// Times the distance of two joints, m: where their common normal is farther away, a row loses digits to it. Inertias grow with its
-/// square: a UR5e whose axes miss their places by 3e-3 rad, as calibration finds, with a normal 140 times as far, differs by 7e-12.
+/// Times the distance of two joints, m: where their common normal is farther away, a row loses digits to it, since inertias grow with its
+/// square. A UR5e whose axes miss their places by 1e-2 rad, with a normal 100 times as far, differs by 2e-12, by 3e-3 rad by 7e-12.
 const FAR: f64 = 200.0;
+/// Wherever the joints are, m: an axis meets two normals, whose distance is within the 100 m of a table.
+const FARTHEST: f64 = 49.0;
 /// Joints that are nearer than this, m, count as if they were so far apart there.
 const NEAR: f64 = 0.1;
 
@@ -45,7 +47,7 @@ impl Normal {
             let start = point.cross(&next).dot(&cross) / (sine * sine);
             let end = point.cross(&axis).dot(&cross) / (sine * sine);
             let distance = start.abs().max(end.abs());
-            if distance <= FAR * point.norm().max(NEAR) {
+            if distance <= (FAR * point.norm().max(NEAR)).min(FARTHEST) {
                 return Self::skew(axes, hint, start);
             }
             let doubt = Some((sine.atan2(axis.dot(&next).abs()), distance));

@@ -349,9 +349,10 @@ mod tests {
         let refused = rows(&chain(1e-3), &Frame::identity()).unwrap_err();
         assert_eq!(refused.len(), 1);
         assert!((refused[0].distance - 500.0).abs() < 1.0);
-        // Within 200 times the joints' distance they are kept.
+        // Within 200 times the joints' distance and 49 m they are kept.
+        assert_eq!(rows(&chain(0.01), &Frame::identity()).unwrap_err().len(), 1);
+        checked(&chain(0.011), &Frame::identity(), 1e-11);
         checked(&chain(0.03), &Frame::identity(), 1e-12);
-        checked(&chain(0.006), &Frame::identity(), 1e-11);
     }
 
     #[test]
