@@ -35,6 +35,9 @@ pub(crate) struct Arguments {
     /// Take over the inertia of this link although no rigid body can have it; may be repeated
     #[arg(long, value_name = "LINK")]
     accept_inertia: Vec<String>,
+    /// Take the axis of this joint as parallel to that of the joint before, if they are almost; may be repeated
+    #[arg(long, value_name = "JOINT")]
+    parallel: Vec<String>,
     /// The arm's name [default: the robot's]
     #[arg(long)]
     name: Option<String>,
@@ -81,6 +84,9 @@ fn import(arguments: &Arguments) -> Import {
     for link in &arguments.accept_inertia {
         import = import.accept_inertia(link);
     }
+    for joint in &arguments.parallel {
+        import = import.parallel(joint);
+    }
     import
 }
 
@@ -103,7 +109,7 @@ fn summary(imported: &Imported, file: &Path) -> String {
         text.push('\n');
     }
     text.push_str(&format!(
-        "Next:\n  ulna check {file}\n  ulna generate {file} --output {}.rs\n  ulna verify {file}",
+        "Next:\n  ulna check {file}\n  ulna verify {file}\n  ulna generate {file} --output {0}.rs, or a crate around it: ulna new --crate {0} {file}",
         model.name()
     ));
     text

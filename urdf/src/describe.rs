@@ -16,9 +16,10 @@ use crate::merge::{Assembly, Segment};
 use crate::motion::distance;
 use crate::names::{joint_names, robot_name};
 use crate::note::NoteKind;
+use crate::parallel::{doubts, parallel};
 use crate::report::Report;
 use crate::robot::{JointElement, Motion};
-use crate::rows::{Moving, NearlyParallel, Rows, rows};
+use crate::rows::{Moving, Rows, rows};
 use crate::task::task;
 use crate::tidied;
 use crate::tree::Tree;
@@ -44,7 +45,8 @@ pub(crate) fn describe(
     let name = name(import, tree, &mut report);
     let Assembly { segments, tool } = assembly?;
     let moving = moving(tree, &segments);
-    let rows = rows(&moving, &tool);
+    let parallel = parallel(import, tree, chain, &report);
+    let rows = rows(&moving, &tool, |joint| parallel.contains(&joint));
     doubts(tree, chain, &rows, &report);
     let rows = rows.ok()?;
     let rows = Rows {
@@ -123,35 +125,6 @@ fn moving(tree: &Tree, segments: &[Segment]) -> Vec<Moving> {
     moving.collect()
 }
 
-/// Says which axes are almost parallel, and so that rows say it badly: they are taken as parallel, or refused.
-fn doubts(tree: &Tree, chain: &Chain, rows: &Result<Rows, Vec<NearlyParallel>>, report: &Report) {
-    let (doubts, refused) = match rows {
-        Ok(rows) => (&rows.nearly_parallel, false),
-        Err(doubts) => (doubts, true),
-    };
-    for doubt in doubts {
-        let [before, joint] = [doubt.joint - 1, doubt.joint].map(|i| tree.joint(chain.joints[i]));
-        let span = joint.origin.span.clone();
-        let almost = format!(
-            "the axes of joints `{}` and `{}` are almost parallel: {:.1e} rad are missing",
-            before.name, joint.name, doubt.angle
-        );
-        let label = format!("their common normal is {:.0} m away", doubt.distance);
-        report.push(if refused {
-            Diagnostic::error(
-                span,
-                format!("{almost}; rows of Denavit and Hartenberg lose their digits there"),
-            )
-            .label(label)
-            .help("write the angle so that they are parallel, or so far from it that it is meant")
-        } else {
-            Diagnostic::warning(span, format!("{almost}; they are taken as parallel"))
-                .label(label)
-                .help("write angles with all digits: 1.5707963267948966 for a quarter turn")
-        });
-    }
-}
-
 /// The arm's name: as it is asked for, or after the robot. `None` if no arm can be called so, which has been reported.
 fn name(import: &Import, tree: &Tree, report: &mut Report) -> Option<String> {
     let Some(name) = &import.name else {
@@ -202,7 +175,7 @@ fn say_rounding(distance: f64, report: &mut Report) {
     const ROUNDING: f64 = 1e-12;
     if distance > ROUNDING {
         let message = format!(
-            "by the table's rows the tool is up to {distance:.1e} m and rad from where the description has it: quarter turns that are written to ten digits or more are taken as whole, and digits beyond 1e-13 left out"
+            "by the table's rows the tool is up to {distance:.1e} m and rad from where the description has it: quarter turns that are written to ten digits or more are taken as whole, axes as parallel where that is told, and digits beyond 1e-13 left out"
         );
         report.note(NoteKind::Assumed, message);
     }

@@ -26,6 +26,7 @@ pub struct Import {
     pub(crate) tip: Option<String>,
     pub(crate) drop: Vec<String>,
     pub(crate) accept_inertia: Vec<String>,
+    pub(crate) parallel: Vec<String>,
     pub(crate) name: Option<String>,
 }
 
@@ -56,6 +57,13 @@ impl Import {
     /// The inertia of this link is taken over although no rigid body can have it.
     pub fn accept_inertia(mut self, link: impl Into<String>) -> Self {
         self.accept_inertia.push(link.into());
+        self
+    }
+
+    /// The axis of this joint is taken as parallel to that of the joint before, if the two are almost parallel with their
+    /// common normal too far away for rows to keep their digits: an arm that was calibrated is then its nominal one there.
+    pub fn parallel(mut self, joint: impl Into<String>) -> Self {
+        self.parallel.push(joint.into());
         self
     }
 

@@ -70,6 +70,7 @@ mod motion;
 mod names;
 mod normal;
 mod note;
+mod parallel;
 mod read;
 mod report;
 mod robot;

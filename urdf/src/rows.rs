@@ -18,7 +18,7 @@ use crate::normal::{Axes, Normal, across};
 /// eleven printed digits of π leave. It moves a tool a metre away by a hundredth of a nanometre.
 pub(crate) const ROUNDING: f64 = 1e-11;
 /// Up to this sine two axes may be taken as parallel, with a warning: what five printed digits of π leave.
-const NEARLY_PARALLEL: f64 = 1e-5;
+pub(crate) const NEARLY_PARALLEL: f64 = 1e-5;
 /// Digits beyond this, m or rad, are rounding.
 pub(crate) const SLACK: f64 = 1e-13;
 
@@ -65,11 +65,16 @@ pub(crate) struct NearlyParallel {
     pub(crate) distance: f64,
 }
 
-/// The rows of a chain whose tip is at `tool` in the last joint's frame.
+/// The rows of a chain whose tip is at `tool` in the last joint's frame. The axes of joints for which `is_parallel` holds
+/// may be taken as parallel to those before them, however far they are from it.
 ///
 /// # Errors
 /// Axes that are too far from parallel to be taken as parallel, and too near for rows that keep their digits.
-pub(crate) fn rows(joints: &[Moving], tool: &Frame) -> Result<Rows, Vec<NearlyParallel>> {
+pub(crate) fn rows(
+    joints: &[Moving],
+    tool: &Frame,
+    is_parallel: impl Fn(usize) -> bool,
+) -> Result<Rows, Vec<NearlyParallel>> {
     let mut found = Rows {
         base: Frame::identity(),
         rows: Vec::new(),
@@ -118,7 +123,7 @@ pub(crate) fn rows(joints: &[Moving], tool: &Frame) -> Result<Rows, Vec<NearlyPa
         found.in_joint_frame.push(frame);
         if let (Some(next), Some(joint)) = (next, joints.get(index + 1)) {
             if let Some((angle, distance)) = next.doubt {
-                let doubts = if angle <= NEARLY_PARALLEL {
+                let doubts = if angle <= NEARLY_PARALLEL || is_parallel(index + 1) {
                     &mut found.nearly_parallel
                 } else {
                     &mut refused
@@ -238,7 +243,7 @@ mod tests {
 
     /// Rows that put the tip where the description does.
     fn checked(joints: &[Moving], tool: &Frame, tolerance: f64) -> Rows {
-        let rows = rows(joints, tool).unwrap();
+        let rows = rows(joints, tool, |_| false).unwrap();
         let difference = difference(joints, tool, &rows);
         assert!(difference < tolerance, "{difference:e}\n{rows:#?}");
         rows
@@ -336,7 +341,7 @@ mod tests {
         };
         // The normal of these lies 0.5 / angle away.
         let joints = chain(4e-6);
-        let found = rows(&joints, &Frame::identity()).unwrap();
+        let found = rows(&joints, &Frame::identity(), |_| false).unwrap();
         let [doubt] = found.nearly_parallel.as_slice() else {
             panic!("{found:#?}");
         };
@@ -346,11 +351,16 @@ mod tests {
         let difference = difference(&joints, &Frame::identity(), &found);
         assert!(difference > 1e-7 && difference < 8e-6, "{difference:e}");
 
-        let refused = rows(&chain(1e-3), &Frame::identity()).unwrap_err();
+        let refused = rows(&chain(1e-3), &Frame::identity(), |_| false).unwrap_err();
         assert_eq!(refused.len(), 1);
         assert!((refused[0].distance - 500.0).abs() < 1.0);
         // Within 200 times the joints' distance and 49 m they are kept.
-        assert_eq!(rows(&chain(0.01), &Frame::identity()).unwrap_err().len(), 1);
+        assert_eq!(
+            rows(&chain(0.01), &Frame::identity(), |_| false)
+                .unwrap_err()
+                .len(),
+            1
+        );
         checked(&chain(0.011), &Frame::identity(), 1e-11);
         checked(&chain(0.03), &Frame::identity(), 1e-12);
     }

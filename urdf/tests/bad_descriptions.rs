@@ -295,6 +295,8 @@ fn axes_that_are_neither_parallel_nor_not() {
         "xyz=\"0.45 0 0.03\" rpy=\"0 0.001 0\"",
     );
     insta::assert_snapshot!(refused(&to_hand(), &text));
+    let missed = to_hand().parallel("elbo");
+    insta::assert_snapshot!("no_such_joint_is_parallel", refused(&missed, &text));
 }
 
 #[test]

@@ -300,3 +300,18 @@ fn the_table_is_the_arm() {
         ["flange", "hand", "finger_left", "finger_right"]
     );
 }
+
+/// A calibrated arm: the elbow's axis is a milliradian off the shoulder's.
+#[test]
+fn almost_parallel_axes_are_taken_as_parallel_where_that_is_asked_for() {
+    let text = edited(
+        "xyz=\"0.45 0 0.03\"",
+        "xyz=\"0.45 0 0.03\" rpy=\"0 0.001 0\"",
+    );
+    let arm = imported(&Import::new().tip("hand").parallel("elbow"), &text);
+    insta::assert_snapshot!(arm.warnings().to_string());
+    assert_eq!(arm.model().joints()[2].alpha.radians, 0.0);
+    let told = |note: &&ulna_urdf::Note| note.message.contains("the tool is up to");
+    let told = arm.notes().iter().find(told).expect("how far off it is");
+    assert!(told.message.contains("e-3 m and rad"), "{told}");
+}
