@@ -102,5 +102,11 @@ fn verified(model: &Model, arguments: &Arguments) -> anyhow::Result<Verified> {
     let samples = arguments.samples(model.joints().len());
     progress.counts(samples as u64, "comparing at random states")?;
     let each = || progress.one_done();
-    Ok(ulna_verify::verify(model, compiled, samples, &each)?)
+    // What most arms have is compiled with optimizations, as this program is.
+    let verify = match model.joints().len() {
+        6 => ulna_verify::verify_as::<6>,
+        7 => ulna_verify::verify_as::<7>,
+        _ => ulna_verify::verify,
+    };
+    Ok(verify(model, compiled, samples, &each)?)
 }

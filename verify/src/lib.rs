@@ -89,7 +89,28 @@ pub fn verify(
     samples: usize,
     each: &(dyn Fn() + Sync),
 ) -> Result<Verified, Error> {
-    let mut states = states_of(model, compiled)?;
+    compare(states_of(model, compiled)?, samples, each)
+}
+
+/// [`verify`] of an arm of `N` joints, compiled as the caller is: with optimizations it takes a tenth of the time to run, and
+/// its caller three seconds more to compile.
+///
+/// # Errors
+/// As [`verify`], and if the arm has another number of joints.
+pub fn verify_as<const N: usize>(
+    model: &Model,
+    compiled: Compiled,
+    samples: usize,
+    each: &(dyn Fn() + Sync),
+) -> Result<Verified, Error> {
+    compare(Sides::<N>::boxed(model, compiled)?, samples, each)
+}
+
+fn compare(
+    mut states: Box<dyn States>,
+    samples: usize,
+    each: &(dyn Fn() + Sync),
+) -> Result<Verified, Error> {
     let threads = ThreadPoolBuilder::new().stack_size(STACK).build()?;
     Ok(threads.install(|| all(&mut *states, samples, each)))
 }
