@@ -43,6 +43,7 @@ enum Form {
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let path = &arguments.table;
     let model = console::load(path)?;
+    console::warnings(path, &ulna_codegen::warnings(&model));
     let to = match arguments.to {
         Form::Standard => Convention::Standard,
         Form::Modified => Convention::Modified,

@@ -59,6 +59,7 @@ fn slips_of_the_pen() {
         ("angle_unit = \"deg\"", "angle_unit = \u{201c}deg\u{201d}"),
         ("rows = [\"x\", \"y\"]", "rows = [x, y]"),
         ("# Two", "{ # Two"),
+        ("# Two", "<robot name=\"two\"/> <!-- Two -->\n#"),
     ]);
     insta::assert_snapshot!(messages);
 }

@@ -206,7 +206,8 @@ fn gravity(tree: &Tree, chain: &Chain, report: &mut Report) {
     if up[2] < 1.0 - UPRIGHT {
         let down: Vec<String> = up
             .iter()
-            .map(|x| format!("{:.6}", -9.81 * x + 0.0))
+            // Rounded first, and 0 added: no -0.
+            .map(|x| format!("{:.6}", (-9.81e6 * x).round() / 1e6 + 0.0))
             .collect();
         let message = format!(
             "the base `{base}` does not stand upright on the root `{}`: where the root's z points up, gravity is [{}]",

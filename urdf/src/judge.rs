@@ -121,8 +121,14 @@ pub(crate) fn weighs(tree: &Tree, segments: &[Segment], report: &Report) -> bool
             "the link `{}` moves, and {what}; neither has anything that is fixed to it",
             link.name
         );
+        // Before the first joint there is no chain left.
+        let without_it = if segment.joint == segments[0].joint {
+            format!("begin the chain after it with `--base {}`", link.name)
+        } else {
+            format!("end the chain before it with `--tip {parent}`")
+        };
         report.push(Diagnostic::error(place.clone(), message).help(format!(
-            "give it its mass and inertia, make joint `{joint}` fixed in the URDF, or end the chain before it with `--tip {parent}`"
+            "give it its mass and inertia, make joint `{joint}` fixed in the URDF, or {without_it}"
         )));
     }
     without.is_empty()

@@ -36,6 +36,13 @@ pub(super) fn report(
             error.help("write `key = value` on a line each, without braces around all of it"),
         );
     }
+    if text.trim_start().starts_with('<') {
+        let start = text.len() - text.trim_start().len();
+        let error = Diagnostic::error(start..start + 1, "not TOML: this looks like XML");
+        return sink.push(error.help(
+            "a robot description (URDF) becomes a table by `ulna import FILE --output my_arm.toml`",
+        ));
+    }
     let span = |fault: &toml::de::Error| fault.span().unwrap_or(0..0);
     // The parser runs in several passes over the text, each with its own errors.
     faults.sort_by_key(|fault| span(fault).start);
