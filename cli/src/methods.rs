@@ -2,7 +2,7 @@
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use ulna::{Method, MethodSet};
+use ulna::Method;
 use ulna_codegen::Generator;
 
 /// Which methods of the trait Arm are generated.
@@ -37,8 +37,10 @@ impl Methods {
         format!(" --methods {}", names.join(","))
     }
 
-    /// What is not generated.
-    pub(crate) fn absent(&self) -> MethodSet {
-        self.generator().chosen().rest()
+    /// The names of what is not generated, separated by commas; `None` if everything is.
+    pub(crate) fn absent(&self) -> Option<String> {
+        let absent = self.generator().chosen().rest();
+        let names: Vec<&str> = absent.iter().map(Method::name).collect();
+        (!names.is_empty()).then(|| names.join(", "))
     }
 }

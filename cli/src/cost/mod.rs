@@ -10,7 +10,6 @@ use clap::Args;
 use comfy_table::presets;
 use comfy_table::{CellAlignment, Table};
 use serde_json::{Map, Value, json};
-use ulna::Method;
 use ulna_codegen::{Counts, Generated};
 use ulna_table::Model;
 
@@ -58,14 +57,8 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
             ([table], [model]) => write(arguments, table, model, out)?,
             (tables, models) => several::write(arguments, tables, models, out)?,
         }
-        let absent: Vec<&str> = arguments
-            .methods
-            .absent()
-            .iter()
-            .map(Method::name)
-            .collect();
-        if !absent.is_empty() {
-            writeln!(out, "by the textbook formulas: {}", absent.join(", "))?;
+        if let Some(absent) = arguments.methods.absent() {
+            writeln!(out, "by the textbook formulas: {absent}")?;
         }
     }
     Ok(Verdict::Pass)

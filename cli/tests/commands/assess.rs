@@ -6,7 +6,7 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::by_table::TOLD;
-use crate::support::{edited_scenario, stderr, stdout, ulna};
+use crate::support::{edited_scenario, folder_with_my_arm, short_scenario, stderr, stdout, ulna};
 
 /// A folder with `coarse.toml`: the paper-like scenario on a grid of few failures, and `edits`.
 fn coarse_scenario(edits: &[(&str, &str)]) -> TempDir {
@@ -95,36 +95,9 @@ fn every_law_meets_every_failure() {
 /// Two joints and a task of two rows: nothing is left, and the page does not pretend.
 #[test]
 fn an_arm_without_redundancy_is_told_what_it_can_have() {
-    let folder = tempfile::tempdir().unwrap();
-    let table = include_str!("../../../arms/planar_2r.toml").replace("planar_2r", "my_arm");
-    fs::write(folder.path().join("my_arm.toml"), table).unwrap();
-    let scenario = r#"
-name = "by_table"
-arm = "my_arm.toml"
-angle_unit = "deg"
-[motion]
-kind = "joint"
-angles = "q"
-start = [10, 60]
-goal = [40, 20]
-duration = 2
-blend = 0.5
-[failure]
-joints = [2]
-times = [0.9]
-[control]
-cycle = 0.1
-[search]
-start = 0
-step = 1e-3
-[[experiment]]
-section = "a"
-force = [1, 2, 0]
-rated_torque = "none"
-[assess]
-failure_times = 3
-force_budgets = [0]
-"#;
+    let folder = folder_with_my_arm();
+    let scenario = short_scenario("my_arm.toml", "[10, 60]", "[40, 20]")
+        + "[assess]\nfailure_times = 3\nforce_budgets = [0]\n";
     fs::write(folder.path().join("two.toml"), scenario).unwrap();
     let output = path(&folder, "out");
     let run = ulna(&["assess", &path(&folder, "two.toml"), "--output", &output]);

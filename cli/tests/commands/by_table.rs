@@ -4,42 +4,15 @@ use std::fs;
 
 use tempfile::TempDir;
 
-use crate::support::{stderr, ulna};
+use crate::support::{folder_with_my_arm, short_scenario, stderr, ulna};
 
 /// What is said of an arm that is not compiled.
 pub(crate) const TOLD: &str = "is not compiled into the program: it runs by the textbook formulas";
 
 /// A folder with `short.toml`, a short motion of the `arm`, and the table `my_arm.toml`.
 fn scenario(arm: &str) -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let table = include_str!("../../../arms/planar_2r.toml").replace("planar_2r", "my_arm");
-    fs::write(folder.path().join("my_arm.toml"), table).unwrap();
-    let scenario = format!(
-        r#"
-name = "short"
-arm = "{arm}"
-angle_unit = "deg"
-[motion]
-kind = "joint"
-angles = "q"
-start = [10, 60]
-goal = [40, 20]
-duration = 2
-blend = 0.5
-[failure]
-joints = [2]
-times = [0.9]
-[control]
-cycle = 0.1
-[search]
-start = 0
-step = 1e-3
-[[experiment]]
-section = "a"
-force = [1, 2, 0]
-rated_torque = "none"
-"#
-    );
+    let folder = folder_with_my_arm();
+    let scenario = short_scenario(arm, "[10, 60]", "[40, 20]");
     fs::write(folder.path().join("short.toml"), scenario).unwrap();
     folder
 }

@@ -2,41 +2,17 @@
 
 use std::fs;
 
-use crate::support::{long_arm, stderr, stdout, ulna};
+use crate::support::{long_arm, short_scenario, stderr, stdout, ulna};
 
 const COMMANDS: [&str; 3] = ["reproduce", "assess", "campaign"];
-
-const SCENARIO: &str = r#"
-name = "long"
-arm = "long_13.toml"
-angle_unit = "deg"
-[motion]
-kind = "joint"
-angles = "q"
-start = [10, 20, 10, 20, 10, 20, 10, 20, 10, 20, 10, 20, 10]
-goal = [20, 10, 20, 10, 20, 10, 20, 10, 20, 10, 20, 10, 20]
-duration = 2
-blend = 0.5
-[failure]
-joints = [2]
-times = [0.9]
-[control]
-cycle = 0.1
-[search]
-start = 0
-step = 1e-3
-[[experiment]]
-section = "a"
-force = [1, 1, 0]
-rated_torque = "table"
-"#;
 
 #[test]
 fn experiments_say_how_far_they_go() {
     let folder = tempfile::tempdir().unwrap();
     long_arm(folder.path(), 13);
     let scenario = folder.path().join("long.toml");
-    fs::write(&scenario, SCENARIO).unwrap();
+    let [start, goal] = [10, 20].map(|angle| format!("{:?}", [angle; 13]));
+    fs::write(&scenario, short_scenario("long_13.toml", &start, &goal)).unwrap();
     let output = folder.path().join("out");
     for command in COMMANDS {
         let [from, to] = [&scenario, &output].map(|path| path.to_str().unwrap());

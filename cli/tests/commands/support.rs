@@ -109,3 +109,42 @@ pub(crate) fn examples(command: &str) -> Vec<String> {
         .filter_map(|line| line.trim().strip_prefix("ulna "));
     calls.map(str::to_owned).collect()
 }
+
+/// A scenario of one short motion from `start` to `goal` (degrees, as lists) of the arm `arm`, a joint of which locks on the way.
+/// What is to be below it in the file can be added.
+pub(crate) fn short_scenario(arm: &str, start: &str, goal: &str) -> String {
+    format!(
+        r#"
+name = "short"
+arm = "{arm}"
+angle_unit = "deg"
+[motion]
+kind = "joint"
+angles = "q"
+start = {start}
+goal = {goal}
+duration = 2
+blend = 0.5
+[failure]
+joints = [2]
+times = [0.9]
+[control]
+cycle = 0.1
+[search]
+start = 0
+step = 1e-3
+[[experiment]]
+section = "a"
+force = [1, 2, 0]
+rated_torque = "none"
+"#
+    )
+}
+
+/// A folder with `my_arm.toml`, the table of `planar_2r` under another name: an arm that the program is not compiled with.
+pub(crate) fn folder_with_my_arm() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let table = include_str!("../../../arms/planar_2r.toml").replace("planar_2r", "my_arm");
+    std::fs::write(folder.path().join("my_arm.toml"), table).unwrap();
+    folder
+}

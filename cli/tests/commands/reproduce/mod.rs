@@ -13,7 +13,7 @@ use assert_cmd::assert::Assert;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::{edited_scenario, ulna};
+use crate::support::{edited_scenario, folder_with_my_arm, ulna};
 
 /// A folder with `quick.toml`: the paper-like scenario with long control cycles and one failure time, and `edits`.
 fn quick_scenario(edits: &[(&str, &str)]) -> TempDir {
@@ -26,9 +26,7 @@ fn quick_scenario(edits: &[(&str, &str)]) -> TempDir {
 
 /// A folder with `quick.toml` about an arm of two joints, and that arm's table.
 fn planar_scenario() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let table = include_str!("../../../../arms/planar_2r.toml").replace("planar_2r", "my_arm");
-    fs::write(folder.path().join("my_arm.toml"), table).unwrap();
+    let folder = folder_with_my_arm();
     let scenario = r#"
 name = "by_table"
 arm = "my_arm.toml"
