@@ -3,6 +3,7 @@
 mod number;
 mod turn;
 
+use std::f64::consts::FRAC_PI_2;
 use std::fmt::{self, Write};
 
 use super::Description;
@@ -227,10 +228,14 @@ impl TableText<'_> {
         Ok(())
     }
 
-    /// An angle of a row or a placement, off by no more than `slack`. A whole number of quarter turns, which stands for exact sines, is one in degrees.
+    /// An angle of a row or a placement, off by no more than `slack`. A whole number of quarter turns, which stands for exact
+    /// sines, is written as one.
     fn angle(&self, radians: f64, slack: f64) -> f64 {
         match (self.unit, Angle::from_radians(radians).quarter_turns()) {
             (AngleUnit::Degrees, (quarters, 0.0)) => quarters as f64 * 90.0,
+            (AngleUnit::Radians, (quarters, 0.0)) if self.author == Author::Person => {
+                quarters as f64 * FRAC_PI_2
+            }
             _ => in_unit(radians, self.unit, slack),
         }
     }
