@@ -27,12 +27,8 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let mut verdict = Verdict::Pass;
     for path in &arguments.tables {
-        match Model::lint(path) {
-            Ok((model, warnings)) => {
-                console::report(&warnings);
-                console::warnings(path, &ulna_codegen::warnings(&model));
-                summarize(path, &model, out)?;
-            }
+        match console::examine(path) {
+            Ok((_, model)) => summarize(path, &model, out)?,
             Err(errors) => {
                 console::report(&errors);
                 verdict = Verdict::Fail;

@@ -24,6 +24,15 @@ pub(crate) fn load(path: &Path) -> Result<Model, TableErrors> {
     Ok(model)
 }
 
+/// [`load`], with what the generator says of the arm reported too, and the table's text.
+pub(crate) fn examine(path: &Path) -> Result<(String, Model), TableErrors> {
+    let text = Model::read_in("", path)?;
+    let (model, found) = Model::lint_text(&text, &path.display().to_string())?;
+    report(&found);
+    warnings(path, &ulna_codegen::warnings(&model));
+    Ok((text, model))
+}
+
 /// One error that is not about a place in a table.
 pub(crate) fn error(message: &str) {
     anstream::eprintln!("{ERROR}error{ERROR:#}: {}", plain(message));

@@ -1,10 +1,8 @@
 //! `ulna convert`: the same arm in the other Denavit-Hartenberg convention.
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
 use clap::{Args, ValueEnum};
 use ulna::Placement;
 use ulna_table::{Convention, Model};
@@ -42,8 +40,7 @@ enum Form {
 
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let path = &arguments.table;
-    let model = console::load(path)?;
-    console::warnings(path, &ulna_codegen::warnings(&model));
+    let (text, model) = console::examine(path)?;
     let to = match arguments.to {
         Form::Standard => Convention::Standard,
         Form::Modified => Convention::Modified,
@@ -58,8 +55,6 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     // A model is in modified form, whatever its table is in.
     let given = model.description();
     let arm = given.in_convention(to);
-    let text =
-        fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
     let mut heading = comments(&text);
     heading.push(said(path, &model, to));
     if arm.base != given.base {

@@ -37,8 +37,7 @@ impl Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
-    let model = console::load(&arguments.table)?;
-    console::warnings(&arguments.table, &ulna_codegen::warnings(&model));
+    let (_, model) = console::examine(&arguments.table)?;
     let Verified {
         emitted,
         textbook,

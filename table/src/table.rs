@@ -6,7 +6,7 @@
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::format;
 use crate::lint::Lint;
-use crate::model::is_word;
+use crate::model::{called, is_word};
 use crate::toml_reader::{self, ARM_TABLE, Choice, Fields, Key, Located, Value};
 use ulna::{JointKind, TaskRow};
 
@@ -292,18 +292,11 @@ fn read_joints(joints: Value<'_>, sink: &Sink) -> Option<Vec<JointTable>> {
         rows.truncate(max);
     }
     // Messages call a joint by its number and, where it has one, its name.
-    let owners: Vec<String> = (1..)
-        .zip(&rows)
-        .map(|(number, row)| {
-            match row
-                .word_of(&format::JOINT_NAME)
-                .filter(|name| is_word(name))
-            {
-                Some(name) => format!("joint {number} ({name})"),
-                None => format!("joint {number}"),
-            }
-        })
-        .collect();
+    let owner = |(index, row): (usize, &Value<'_>)| {
+        let name = row.word_of(&format::JOINT_NAME);
+        called(index, name.filter(|name| is_word(name)))
+    };
+    let owners: Vec<String> = rows.iter().enumerate().map(owner).collect();
     Value::tables(rows, |number| owners[number - 1].clone(), read_joint)
 }
 

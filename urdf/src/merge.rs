@@ -102,8 +102,6 @@ fn gather(
         accepted: false,
         sound: true,
     };
-    let mut on_path = vec![false; tree.robot.joints.len()];
-    chain.path.iter().for_each(|joint| on_path[*joint] = true);
     let mut heavy = Vec::new();
     let mut frozen = Vec::new();
     let mut open = vec![(own, Frame::identity())];
@@ -136,7 +134,7 @@ fn gather(
                     frozen.push(*joint);
                     frame = frame.times(&freezer.displacement(*joint));
                 }
-                if !on_path[*joint] {
+                if !chain.path.contains(joint) {
                     suspicious::joint(tree, *joint, report);
                 }
                 open.push((child, frame));

@@ -115,9 +115,9 @@ pub(crate) fn rows(
             let theta = from.cross(&x).dot(&axis).atan2(from.dot(&x));
             found.rows.push(Row {
                 alpha: angle(before.0),
-                a: length(before.1),
+                a: tidy(before.1, SLACK),
                 theta: angle(theta),
-                d: length(start - foot),
+                d: tidy(start - foot, SLACK),
             });
         }
         found.in_joint_frame.push(frame);
@@ -159,18 +159,13 @@ fn angle(radians: f64) -> f64 {
     }
 }
 
-/// A length without what only rounding has added.
-fn length(metres: f64) -> f64 {
-    if metres.abs() <= SLACK {
+/// The number of the fewest digits within `slack` of `value`; 0 has the fewest.
+pub(crate) fn tidy(value: f64, slack: f64) -> f64 {
+    if value.abs() <= slack {
         0.0
     } else {
-        tidy(metres, SLACK)
+        shortest(value, |short| (short - value).abs() <= slack)
     }
-}
-
-/// The number of the fewest digits within `slack` of `value`.
-pub(crate) fn tidy(value: f64, slack: f64) -> f64 {
-    shortest(value, |short| (short - value).abs() <= slack)
 }
 
 #[cfg(test)]
@@ -178,22 +173,10 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
+    use ulna::internal::random::SplitMix64;
 
-    /// Numbers from -1 to 1, the same every time.
-    struct Numbers(u64);
-
-    impl Numbers {
-        fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = self.0;
-            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        }
-
-        fn three(&mut self) -> [f64; 3] {
-            std::array::from_fn(|_| self.next())
-        }
+    fn three(random: &mut SplitMix64) -> [f64; 3] {
+        std::array::from_fn(|_| random.symmetric())
     }
 
     fn joint(xyz: [f64; 3], rpy: [f64; 3], axis: [f64; 3]) -> Moving {
@@ -230,10 +213,10 @@ mod tests {
 
     /// The largest difference of the two over some configurations.
     fn difference(joints: &[Moving], tool: &Frame, rows: &Rows) -> f64 {
-        let mut numbers = Numbers(5);
+        let mut numbers = SplitMix64::new(5);
         (0..20)
             .map(|_| {
-                let q: Vec<f64> = joints.iter().map(|_| 3.0 * numbers.next()).collect();
+                let q: Vec<f64> = joints.iter().map(|_| 3.0 * numbers.symmetric()).collect();
                 let (one, other) = (as_described(joints, tool, &q), by_rows(rows, &q));
                 let turned = (one.rotation - other.rotation).amax();
                 turned.max((one.translation - other.translation).amax())
@@ -251,12 +234,18 @@ mod tests {
 
     #[test]
     fn axes_anywhere_give_rows_that_move_alike() {
-        let mut numbers = Numbers(1);
+        let mut numbers = SplitMix64::new(1);
         for _ in 0..100 {
             let joints: Vec<Moving> = (0..7)
-                .map(|_| joint(numbers.three(), numbers.three(), numbers.three()))
+                .map(|_| {
+                    joint(
+                        three(&mut numbers),
+                        three(&mut numbers),
+                        three(&mut numbers),
+                    )
+                })
                 .collect();
-            let tool = Frame::from_rpy(numbers.three(), numbers.three());
+            let tool = Frame::from_rpy(three(&mut numbers), three(&mut numbers));
             // A normal may be as far away as 50 m, and cost its digits.
             checked(&joints, &tool, 1e-11);
         }
@@ -271,8 +260,8 @@ mod tests {
             [0.0, 0.0, 1.0],
             [0.0, 0.0, -1.0],
         ];
-        let mut numbers = Numbers(2);
-        let mut pick = |count: usize| ((numbers.next() + 1.0) * 0.5 * count as f64) as usize;
+        let mut numbers = SplitMix64::new(2);
+        let mut pick = |count: usize| ((numbers.symmetric() + 1.0) * 0.5 * count as f64) as usize;
         for _ in 0..100 {
             let joints: Vec<Moving> = (0..6)
                 .map(|_| {

@@ -20,21 +20,12 @@ pub(crate) fn body(body: &Body) -> Body {
     Body {
         mass: body.mass,
         com: vector(&body.com),
-        inertia: body.inertia.map(|entry| number(entry, slack)),
+        inertia: body.inertia.map(|entry| tidy(entry, slack)),
     }
 }
 
 fn vector(vector: &Vector3<f64>) -> Vector3<f64> {
-    vector.map(|coordinate| number(coordinate, SLACK))
-}
-
-/// The number of the fewest digits within `slack`; 0 has the fewest.
-fn number(number: f64, slack: f64) -> f64 {
-    if number.abs() <= slack {
-        0.0
-    } else {
-        tidy(number, slack)
-    }
+    vector.map(|coordinate| tidy(coordinate, SLACK))
 }
 
 /// The rotation, with what is one of the parent's axes as that axis. What is left of the others is off by rounding's square.

@@ -42,10 +42,7 @@ impl Table {
         let shown = path.display();
         match fs::symlink_metadata(path) {
             Ok(_) => {
-                let model = console::load(path)?;
-                console::warnings(path, &ulna_codegen::warnings(&model));
-                let text = fs::read_to_string(path);
-                let text = text.with_context(|| format!("cannot read {shown}"))?;
+                let (text, model) = console::examine(path)?;
                 Ok(Self { text, model })
             }
             Err(error) if error.kind() == io::ErrorKind::NotFound => {

@@ -92,13 +92,10 @@ impl LinkSubject<'_> {
     }
 }
 
-/// A joint as messages call it: by its number and, where it has one, its name.
+/// A joint of the model as messages call it.
 pub(super) fn called(model: &Model, index: usize) -> String {
-    let number = format!("joint {}", index + 1);
-    match model.joint_names().get(index) {
-        Some(name) if *name != number => format!("{number} ({name})"),
-        _ => number,
-    }
+    let name = model.joint_names().get(index).map(String::as_str);
+    crate::model::called(index, name)
 }
 
 fn norm(vector: [f64; 3]) -> f64 {

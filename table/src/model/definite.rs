@@ -1,6 +1,6 @@
 //! Whether the mass matrix of an arm with an accepted inertia is positive definite.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use crate::pose::Pose;
 use ulna::{Joint, JointKind, Placement};
@@ -27,7 +27,7 @@ pub(super) fn indefinite_at(joints: &[Joint]) -> Option<Vec<f64>> {
     };
     (0..SAMPLES)
         .map(configuration)
-        .find(|q| !is_positive_definite(mass_matrix(joints, q)))
+        .find(|q| !is_positive_definite(&mass_matrix(joints, q)))
 }
 
 /// A number from 0 to 1 for each sample and coordinate, evenly spread: multiples of an irrational number of the coordinate's own.
@@ -37,10 +37,9 @@ fn spread(sample: u32, coordinate: usize) -> f64 {
     (0.5 + f64::from(sample) * irrational).fract()
 }
 
-/// M as the sum of each link's share, m Jvᵀ Jv + Jwᵀ I Jw (Siciliano et al., Robotics, 7.1.1), rows as vectors.
-fn mass_matrix(joints: &[Joint], q: &[f64]) -> Vec<Vec<f64>> {
-    let count = joints.len();
-    let mut mass = vec![vec![0.0; count]; count];
+/// M as the sum of each link's share, m Jvᵀ Jv + Jwᵀ I Jw (Siciliano et al., Robotics, 7.1.1).
+fn mass_matrix(joints: &[Joint], q: &[f64]) -> DMatrix<f64> {
+    let mut mass = DMatrix::zeros(joints.len(), joints.len());
     let pose = Pose::of_chain(joints, &Placement::IDENTITY, &Placement::IDENTITY, q);
     let mut axes: Vec<(JointKind, Vector3<f64>, Vector3<f64>)> = Vec::new();
     for (joint, frame) in joints.iter().zip(pose.links()) {
@@ -59,33 +58,24 @@ fn mass_matrix(joints: &[Joint], q: &[f64]) -> Vec<Vec<f64>> {
             .collect();
         for (i, (v_i, w_i)) in columns.iter().enumerate() {
             for (j, (v_j, w_j)) in columns.iter().enumerate() {
-                mass[i][j] += link.mass * v_i.dot(v_j) + w_i.dot(&(inertia * w_j));
+                mass[(i, j)] += link.mass * v_i.dot(v_j) + w_i.dot(&(inertia * w_j));
             }
         }
     }
     for (i, joint) in joints.iter().enumerate() {
-        mass[i][i] += joint.motor.reflected_inertia();
+        mass[(i, i)] += joint.motor.reflected_inertia();
     }
     mass
 }
 
-/// By Cholesky's factorization.
-fn is_positive_definite(mut matrix: Vec<Vec<f64>>) -> bool {
-    for k in 0..matrix.len() {
-        let known: f64 = matrix[k][..k].iter().map(|entry| entry * entry).sum();
-        let pivot = matrix[k][k] - known;
-        // What rounding leaves of nothing is not positive.
-        if pivot.is_nan() || pivot <= 1e-14 * matrix[k][k].abs() {
-            return false;
-        }
-        let pivot = pivot.sqrt();
-        for i in k + 1..matrix.len() {
-            let known: f64 = (0..k).map(|j| matrix[i][j] * matrix[k][j]).sum();
-            matrix[i][k] = (matrix[i][k] - known) / pivot;
-        }
-        matrix[k][k] = pivot;
-    }
-    true
+/// By Cholesky's factorization. What rounding leaves of nothing is not positive.
+fn is_positive_definite(matrix: &DMatrix<f64>) -> bool {
+    matrix.clone().cholesky().is_some_and(|factor| {
+        let pivots = factor.l_dirty().diagonal().map(|root| root * root);
+        let diagonal = matrix.diagonal();
+        let mut entries = pivots.iter().zip(diagonal.iter());
+        entries.all(|(pivot, entry)| *pivot > 1e-14 * entry.abs())
+    })
 }
 
 #[cfg(test)]
@@ -103,7 +93,7 @@ mod tests {
         let theirs = chain.mass_matrix(&SVector::from(q));
         for i in 0..6 {
             for j in 0..6 {
-                assert!((ours[i][j] - theirs[(i, j)]).abs() < 1e-12 * theirs.amax());
+                assert!((ours[(i, j)] - theirs[(i, j)]).abs() < 1e-12 * theirs.amax());
             }
         }
         assert_eq!(indefinite_at(model.joints()), None);

@@ -11,6 +11,15 @@ pub(super) fn numbered(index: usize) -> String {
     format!("joint {}", index + 1)
 }
 
+/// A joint as messages call it: by its number and, where it has one, its name.
+pub(crate) fn called(index: usize, name: Option<&str>) -> String {
+    let number = numbered(index);
+    match name {
+        Some(name) if name != number => format!("{number} ({name})"),
+        _ => number,
+    }
+}
+
 /// Whether `name` can name a joint: a word that is an identifier in most languages.
 pub(crate) fn is_word(name: &str) -> bool {
     name.len() <= MAX_LENGTH

@@ -21,7 +21,7 @@ pub(crate) use convention::standard_to_modified;
 pub use description::Description;
 pub use inertia::{ImpossibleInertia, impossible_inertia};
 pub use joint_names::joint_name;
-pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, is_word};
+pub(crate) use joint_names::{RULE as JOINT_NAME_RULE, called, is_word};
 pub use name::{is_keyword, name_for};
 pub use written::{TableText, shortest};
 
@@ -91,8 +91,19 @@ impl Model {
         folder: impl AsRef<Path>,
         path: impl AsRef<Path>,
     ) -> Result<(Self, Diagnostics), TableErrors> {
-        let text = read_file(folder.as_ref(), path.as_ref(), Self::MAX_BYTES)?;
+        let text = Self::read_in(folder, &path)?;
         Self::lint_text(&text, &path.as_ref().display().to_string())
+    }
+
+    /// The text of the table at `path` in `folder`, not examined: for who wants it beside what [`Model::lint_text`] makes of it.
+    ///
+    /// # Errors
+    /// Why there is none, or that it is longer than any table.
+    pub fn read_in(
+        folder: impl AsRef<Path>,
+        path: impl AsRef<Path>,
+    ) -> Result<String, TableErrors> {
+        read_file(folder.as_ref(), path.as_ref(), Self::MAX_BYTES)
     }
 
     /// [`Model::load`], together with warnings of what is allowed but rarely meant.
@@ -103,7 +114,11 @@ impl Model {
         Self::lint_in("", path)
     }
 
-    fn lint_text(text: &str, source_name: &str) -> Result<(Self, Diagnostics), TableErrors> {
+    /// [`Model::parse`], together with warnings of what is allowed but rarely meant.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text, at once.
+    pub fn lint_text(text: &str, source_name: &str) -> Result<(Self, Diagnostics), TableErrors> {
         Self::examine(text, source_name, Author::Person, |_, _| ())
     }
 
