@@ -1,5 +1,6 @@
 //! What is written beside the functions of the methods, for an [interface](Abi) that is asked for.
 
+use super::casadi;
 use super::options::Abi;
 use super::target::Target;
 use crate::Compiled;
@@ -14,8 +15,9 @@ pub(super) struct Further {
 }
 
 /// The functions of the interface that the options ask for.
-pub(super) fn further(target: &Target<'_>, _compiled: &Compiled) -> Further {
+pub(super) fn further(target: &Target<'_>, compiled: &Compiled) -> Further {
     match target.options.abi {
-        None | Some(Abi::Casadi) => Further::default(),
+        None => Further::default(),
+        Some(Abi::Casadi) => casadi::further(target, compiled),
     }
 }

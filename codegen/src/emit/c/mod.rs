@@ -3,6 +3,7 @@
 //! [`GeneratedC`] is a header with a documented prototype for each method, and a source file that defines them: C99, no allocation, nothing
 //! but `sin`, `cos` and `sqrt` of the mathematical library.
 
+mod casadi;
 mod documentation;
 mod expression;
 mod function;
@@ -162,11 +163,14 @@ fn source_file(target: &Target<'_>, about: &[String], definitions: &[String]) ->
         ("math.h", "(q"),
         ("stdbool.h", "bool "),
         ("stddef.h", "size_t"),
+        ("stddef.h", "NULL"),
     ];
     let needed = headers.iter().filter(|(_, sign)| code.contains(sign));
-    let needed: String = needed
+    let mut needed: Vec<String> = needed
         .map(|(header, _)| format!("#include <{header}>\n"))
         .collect();
+    needed.dedup();
+    let needed = needed.concat();
     let name = target.model.name();
     format!(
         "{about}#include \"{name}.h\"\n\n{needed}\n{code}",

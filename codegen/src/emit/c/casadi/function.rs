@@ -3,17 +3,17 @@
 use std::fmt::Write as _;
 
 use ulna::{Method, Payload};
-use ulna_table::Model;
 
+use super::super::target::Target;
 use super::block::Block;
 use super::interface::Interface;
-use crate::graph::Input;
-use crate::schedule::Operand;
 use crate::{Compiled, MethodProgram};
 
 /// A function of CasADi with one output, and its Jacobian.
 #[derive(Debug)]
 pub(super) struct Function {
+    /// Of the names of what the functions share.
+    prefix: String,
     value: Interface,
     jacobian: Interface,
     /// The statement that computes the output.
@@ -33,52 +33,53 @@ struct Computed {
 
 impl Function {
     /// (q, q̇, q̈) → τ, and the payload's parameters behind these if the arm has one; `None` where a method is not compiled.
-    pub(super) fn inverse_dynamics(model: &Model, compiled: &Compiled) -> Option<Self> {
-        let n = model.joints().len();
+    pub(super) fn inverse_dynamics(target: &Target<'_>, compiled: &Compiled) -> Option<Self> {
+        let n = target.joints().len();
         let derivatives = Method::InverseDynamicsDerivatives;
         let square = |method, part| Block::of(compiled, method, part, n, n);
         let by_state = vec![square(derivatives, 0)?, square(derivatives, 1)?];
         let by_acceleration = vec![square(Method::MassMatrix, 0)?];
         let mut results = vec![
-            Computed::by(model, compiled, derivatives, by_state)?,
-            Computed::by(model, compiled, Method::MassMatrix, by_acceleration)?,
+            Computed::by(target, compiled, derivatives, by_state)?,
+            Computed::by(target, compiled, Method::MassMatrix, by_acceleration)?,
         ];
-        if model.has_payload() {
+        if target.model.has_payload() {
             // Torques are linear in the parameters of the last link, and so in those of what it carries.
             let last = Block::of(compiled, Method::Regressor, 0, n, Payload::PARAMETERS)?;
             results.push(Computed::by(
-                model,
+                target,
                 compiled,
                 Method::Regressor,
                 vec![last],
             )?);
         }
-        Self::new(model, compiled, Method::InverseDynamics, "tau", results)
+        Self::new(target, compiled, Method::InverseDynamics, "tau", results)
     }
 
     /// (q, q̇, τ) → q̈, likewise.
-    pub(super) fn forward_dynamics(model: &Model, compiled: &Compiled) -> Option<Self> {
-        let n = model.joints().len();
+    pub(super) fn forward_dynamics(target: &Target<'_>, compiled: &Compiled) -> Option<Self> {
+        let n = target.joints().len();
         let derivatives = Method::ForwardDynamicsDerivatives;
         let blocks = (0..3).map(|part| Block::of(compiled, derivatives, part, n, n));
         let blocks = blocks.collect::<Option<_>>()?;
-        let mut results = vec![Computed::by(model, compiled, derivatives, blocks)?];
-        if model.has_payload() {
-            results.push(accelerations_by_payload(model, compiled)?);
+        let mut results = vec![Computed::by(target, compiled, derivatives, blocks)?];
+        if target.model.has_payload() {
+            results.push(accelerations_by_payload(target, compiled)?);
         }
-        Self::new(model, compiled, Method::ForwardDynamics, "qdd", results)
+        Self::new(target, compiled, Method::ForwardDynamics, "qdd", results)
     }
 
     fn new(
-        model: &Model,
+        target: &Target<'_>,
         compiled: &Compiled,
         method: Method,
         output: &str,
         results: Vec<Computed>,
     ) -> Option<Self> {
-        let n = model.joints().len();
-        let name = format!("{}_casadi_{method}", model.name());
-        let payload = model
+        let n = target.joints().len();
+        let name = target.own(&format!("casadi_{method}"));
+        let payload = target
+            .model
             .has_payload()
             .then_some(("payload", Payload::PARAMETERS));
         let inputs = method.arguments().iter();
@@ -97,17 +98,20 @@ impl Function {
         // The output where the Jacobian is taken: it is not used, and so passed without entries.
         let nominal = (format!("out_{output}"), vec![n, 1, 0, 0]);
         Some(Self {
+            prefix: target.own("casadi"),
             jacobian: Interface {
+                prefix: target.own("casadi"),
                 name: format!("jac_{name}"),
                 inputs: inputs.iter().cloned().chain([nominal]).collect(),
                 outputs: by_inputs,
             },
             value: Interface {
+                prefix: target.own("casadi"),
                 name,
                 inputs,
                 outputs: vec![(output.to_owned(), vec![n, 1, 1])],
             },
-            call: call(model, compiled, method, "res[0]")?,
+            call: call(target, compiled, method, "res[0]")?,
             results,
         })
     }
@@ -134,7 +138,10 @@ impl Function {
             lines.extend(statements.iter().cloned());
             lines.extend(places.clone().zip(blocks).map(|(i, block)| {
                 let pattern = self.jacobian.sparsity_of(i);
-                format!("pick(&result[{}], {pattern}, res[{i}]);", block.start)
+                format!(
+                    "{}_pick(&result[{}], {pattern}, res[{i}]);",
+                    self.prefix, block.start
+                )
             }));
             jacobian.push_str(&wanted(places, &lines));
         }
@@ -146,7 +153,11 @@ impl Function {
         let mut text = String::new();
         for (i, (name, _)) in self.value.inputs.iter().enumerate() {
             // Writing to a String does not fail.
-            let _ = writeln!(text, "    const double *const {name} = given(arg[{i}]);");
+            let _ = writeln!(
+                text,
+                "    const double *const {name} = {}_given(arg[{i}]);",
+                self.prefix
+            );
         }
         text
     }
@@ -154,18 +165,23 @@ impl Function {
 
 impl Computed {
     /// Blocks of the results of a method.
-    fn by(model: &Model, compiled: &Compiled, method: Method, blocks: Vec<Block>) -> Option<Self> {
+    fn by(
+        target: &Target<'_>,
+        compiled: &Compiled,
+        method: Method,
+        blocks: Vec<Block>,
+    ) -> Option<Self> {
         Some(Self {
             blocks,
             length: length(compiled, method)?,
-            statements: vec![call(model, compiled, method, "result")?],
+            statements: vec![call(target, compiled, method, "result")?],
         })
     }
 }
 
 /// ∂q̈/∂π = −M⁻¹ ∂τ/∂π for the payload's parameters π, ∂τ/∂π at q̈ of the torques; M⁻¹ is ∂q̈/∂τ.
-fn accelerations_by_payload(model: &Model, compiled: &Compiled) -> Option<Computed> {
-    let n = model.joints().len();
+fn accelerations_by_payload(target: &Target<'_>, compiled: &Compiled) -> Option<Computed> {
+    let n = target.joints().len();
     let (columns, inverse) = (Payload::PARAMETERS, Method::ForwardDynamicsDerivatives);
     let inverse_start = Block::of(compiled, inverse, 2, n, n)?.start;
     let torques = Block::of(compiled, Method::Regressor, 0, n, columns)?;
@@ -177,11 +193,12 @@ fn accelerations_by_payload(model: &Model, compiled: &Compiled) -> Option<Comput
             length(compiled, Method::Regressor)?
         ),
         String::new(),
-        call(model, compiled, Method::ForwardDynamics, "qdd")?,
-        call(model, compiled, inverse, "derivatives")?,
-        call(model, compiled, Method::Regressor, "regressor")?,
+        call(target, compiled, Method::ForwardDynamics, "qdd")?,
+        call(target, compiled, inverse, "derivatives")?,
+        call(target, compiled, Method::Regressor, "regressor")?,
         format!(
-            "solved(&derivatives[{inverse_start}], &regressor[{}], {n}, {columns}, result);",
+            "{}_solved(&derivatives[{inverse_start}], &regressor[{}], {n}, {columns}, result);",
+            target.own("casadi"),
             torques.start
         ),
     ];
@@ -201,24 +218,17 @@ fn length(compiled: &Compiled, method: Method) -> Option<usize> {
 }
 
 /// The statement that calls a method's function.
-fn call(model: &Model, compiled: &Compiled, method: Method, result: &str) -> Option<String> {
-    let program = &MethodProgram::of(&compiled.methods, method)?.program;
-    let steps = program.steps.iter().flat_map(|step| [step.a, step.b]);
-    let elements = program
-        .outputs
-        .iter()
-        .flat_map(|output| output.elements.iter().copied());
-    let reads_payload = steps
-        .chain(elements)
-        .any(|operand| matches!(operand, Operand::Input(Input::Payload(_))));
+fn call(target: &Target<'_>, compiled: &Compiled, method: Method, result: &str) -> Option<String> {
+    MethodProgram::of(&compiled.methods, method)?;
+    let has_payload = target.model.has_payload();
     let arguments = method.arguments().iter().map(|argument| argument.name());
     let arguments = arguments
-        .chain(reads_payload.then_some("payload"))
+        .chain(has_payload.then_some("payload"))
         .chain([result]);
     let arguments: Vec<&str> = arguments.collect();
     Some(format!(
-        "{}_{method}({});",
-        model.name(),
+        "{}({});",
+        target.own(method.name()),
         arguments.join(", ")
     ))
 }

@@ -1,31 +1,26 @@
-//! The dynamics of an arm as functions that CasADi takes from a shared library: `NAME_casadi.h` and `NAME_casadi.c`.
+//! The dynamics of an arm as functions that CasADi takes from a shared library.
 //!
 //! `casadi.external("NAME_casadi_inverse_dynamics", "./libNAME.so")` finds there what CasADi's own code generator would have
 //! written for such a function: its value, its inputs' and outputs' names and sparsities, and with the prefix `jac_` the same for its Jacobian,
-//! a block for each input (checked against the code and the symbols that CasADi 3.8 writes and looks up, `casadi/core/external.cpp`).
-//! The functions have names of their own: CasADi's calling convention is not that of `NAME.h`, and both stand in one library.
+//! a block for each input. (Checked against the code that CasADi 3.8 writes, and against the symbols that it looks up: `casadi/core/external.cpp`.)
+//!
+//! The functions have names of their own, since CasADi's way to call a function is not that of the others, and both stand in one library.
 
 mod block;
 mod function;
 mod interface;
 
 use ulna::{Method, Payload};
-use ulna_table::Model;
 
+use super::interface::Further;
+use super::lines::comment;
+use super::options::Precision;
+use super::target::Target;
 use crate::Compiled;
 use function::Function;
 
-/// What is in the two files.
-#[derive(Debug)]
-pub(in crate::emit) struct Casadi {
-    /// `NAME_casadi.h`.
-    pub(in crate::emit) header: String,
-    /// `NAME_casadi.c`.
-    pub(in crate::emit) source: String,
-}
-
-/// The methods that it calls.
-pub(in crate::emit) fn needed(model: &Model) -> Vec<Method> {
+/// The methods that it calls; one more if the arm has a payload.
+pub(super) fn needed(has_payload: bool) -> Vec<Method> {
     let mut methods = vec![
         Method::InverseDynamics,
         Method::InverseDynamicsDerivatives,
@@ -34,105 +29,99 @@ pub(in crate::emit) fn needed(model: &Model) -> Vec<Method> {
         Method::ForwardDynamicsDerivatives,
     ];
     // What the torques are by the payload's parameters.
-    methods.extend(model.has_payload().then_some(Method::Regressor));
+    methods.extend(has_payload.then_some(Method::Regressor));
     methods
 }
 
-/// Both files; `None` if a method that it [needs](needed) is not among the compiled ones. `origin` is the comment that says where they come from.
-pub(in crate::emit) fn casadi(model: &Model, compiled: &Compiled, origin: &str) -> Option<Casadi> {
-    let functions = [
-        Function::inverse_dynamics(model, compiled)?,
-        Function::forward_dynamics(model, compiled)?,
-    ];
-    Some(Casadi {
-        header: header(model, &functions, origin),
-        source: source(model, &functions, origin),
-    })
+/// The functions. None in single precision, which CasADi does not speak, nor where a method that they [need](needed) is not compiled.
+pub(super) fn further(target: &Target<'_>, compiled: &Compiled) -> Further {
+    let functions = Function::inverse_dynamics(target, compiled)
+        .zip(Function::forward_dynamics(target, compiled));
+    match functions {
+        Some((inverse, forward)) if target.options.precision == Precision::Double => Further {
+            prototypes: vec![
+                comment(&about(target)) + &inverse.prototypes(),
+                forward.prototypes(),
+            ],
+            definitions: vec![
+                helpers(target),
+                inverse.definitions(),
+                forward.definitions(),
+            ],
+        },
+        _ => Further::default(),
+    }
 }
 
-fn header(model: &Model, functions: &[Function; 2], origin: &str) -> String {
-    let name = model.name();
-    let guard = format!("{}_CASADI_H", name.to_uppercase());
-    let prototypes: String = functions.iter().map(Function::prototypes).collect();
-    format!(
-        "{origin}
-#ifndef {guard}
-#define {guard}
-
-/* The arm's dynamics for casadi.external, in double precision. Compile with {name}.c into one shared library:
- *
- *     cc -O2 -shared -fPIC {name}.c {name}_casadi.c -o lib{name}.so -lm
- *
- *     f = casadi.external(\"{name}_casadi_forward_dynamics\", \"./lib{name}.so\")
- *
- * Inputs and outputs are vectors, Jacobians have a block for each input, by columns, without what is 0 at any state.
- * An input that is NULL is 0, an output that is NULL is not computed; iw, w and mem are not used, and may be NULL and 0.
- * No function keeps anything between calls: all may be called by several threads at once. Each returns 0.
- */
-
-#ifdef __cplusplus
-extern \"C\" {{
-#endif
-{prototypes}
-#ifdef __cplusplus
-}}
-#endif
-
-#endif
-"
-    )
+fn about(target: &Target<'_>) -> Vec<String> {
+    let name = target.model.name();
+    let file = format!("cc -O2 -shared -fPIC {name}.c -o lib{name}.so -lm");
+    let load = format!(
+        "casadi.external(\"{}\", \"./lib{name}.so\")",
+        target.own("casadi_forward_dynamics")
+    );
+    [
+        "Inverse and forward dynamics as casadi.external takes them from a shared library:",
+        "",
+        &format!("    {file}"),
+        &format!("    {load}"),
+        "",
+        "All are vectors. A Jacobian has a block for each input, by columns, without what is 0 at every state.",
+        "An input that is NULL is 0, an output that is NULL is not computed. iw, w and mem are not used.",
+        "All may be called by several threads at once.",
+    ]
+    .map(str::to_owned)
+    .to_vec()
 }
 
-fn source(model: &Model, functions: &[Function; 2], origin: &str) -> String {
-    let name = model.name();
-    let longest = model.joints().len().max(if model.has_payload() {
-        Payload::PARAMETERS
+/// What the functions share.
+fn helpers(target: &Target<'_>) -> String {
+    let joints = target.joints().len();
+    let has_payload = target.model.has_payload();
+    let longest = if has_payload {
+        joints.max(Payload::PARAMETERS)
     } else {
-        0
-    });
-    let solved = if model.has_payload() { SOLVED } else { "" };
-    let bodies: String = functions.iter().map(Function::definitions).collect();
-    format!(
-        "{origin}
-#include \"{name}_casadi.h\"
-
-#include <stddef.h>
-
-#include \"{name}.h\"
-
-/* The input that CasADi passes, or zeros where it passes none. */
-static const double *given(const double *input)
+        joints
+    };
+    let zeros = format!(
+        "/* An input, or zeros where none is passed. */
+static const double *CASADI_given(const double *input)
 {{
-    static const double zeros[{longest}] = {{0}};
+    static const double zeros[{longest}] = {{ 0 }};
 
     return (input != NULL) ? input : zeros;
 }}
-{PICK}{solved}{SIZES}{bodies}"
-    )
+"
+    );
+    let solved = if has_payload { SOLVED } else { "" };
+    let text = zeros + PICK + solved + SIZES;
+    text.replace("CASADI", &target.own("casadi"))
 }
 
 const PICK: &str = "
 /* The entries of a matrix by columns that a sparsity has; nothing if they are not wanted.
  * A sparsity is rows, columns and a 1 if it has all; or rows, columns, where each column begins among the entries, their rows. */
-static void pick(const double matrix[], const long long int sparsity[], double *entries)
+static void CASADI_pick(const double matrix[], const long long int sparsity[], double *entries)
 {
     if (entries != NULL)
     {
         const long long int rows = sparsity[0];
         const long long int columns = sparsity[1];
+        long long int j;
+        long long int k;
 
         if (sparsity[2] == 1)
         {
-            for (long long int k = 0; k < (rows * columns); ++k)
+            for (k = 0; k < (rows * columns); k++)
             {
                 entries[k] = matrix[k];
             }
         }
         else
         {
-            for (long long int j = 0; j < columns; ++j)
+            for (j = 0; j < columns; j++)
             {
-                for (long long int k = sparsity[2 + j]; k < sparsity[3 + j]; ++k)
+                for (k = sparsity[2 + j]; k < sparsity[3 + j]; k++)
                 {
                     entries[k] = matrix[(rows * j) + sparsity[3 + columns + k]];
                 }
@@ -144,15 +133,17 @@ static void pick(const double matrix[], const long long int sparsity[], double *
 
 const SOLVED: &str = "
 /* -A B of a square matrix and one of as many rows, all by columns. */
-static void solved(const double a[], const double b[], int rows, int columns, double result[])
+static void CASADI_solved(const double a[], const double b[], int rows, int columns, double result[])
 {
-    for (int j = 0; j < columns; ++j)
+    int i;
+    int j;
+    int k;
+    for (j = 0; j < columns; j++)
     {
-        for (int i = 0; i < rows; ++i)
+        for (i = 0; i < rows; i++)
         {
             double sum = 0.0;
-
-            for (int k = 0; k < rows; ++k)
+            for (k = 0; k < rows; k++)
             {
                 sum += a[i + (rows * k)] * b[k + (rows * j)];
             }
@@ -164,7 +155,7 @@ static void solved(const double a[], const double b[], int rows, int columns, do
 
 const SIZES: &str = "
 /* Lengths of what a call is passed. */
-static int sizes(long long int inputs, long long int outputs, long long int *sz_arg, long long int *sz_res,
+static int CASADI_sizes(long long int inputs, long long int outputs, long long int *sz_arg, long long int *sz_res,
     long long int *sz_iw, long long int *sz_w)
 {
     if (sz_arg != NULL)
@@ -186,18 +177,3 @@ static int sizes(long long int inputs, long long int outputs, long long int *sz_
     return 0;
 }
 ";
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn dump() {
-        for arm in ["planar_2r", "ssrms", "geared_6"] {
-            let model = Model::load(format!("../arms/{arm}.toml")).unwrap();
-            let c = casadi(&model, &crate::compile(&model), "/* origin */").unwrap();
-            std::fs::write(format!("/tmp/cas/{arm}_casadi.h"), c.header).unwrap();
-            std::fs::write(format!("/tmp/cas/{arm}_casadi.c"), c.source).unwrap();
-        }
-    }
-}
