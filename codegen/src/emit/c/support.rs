@@ -50,9 +50,16 @@ static {real} {name}({real} q)
     {{
         const {real} s = {sin}(q);
         const {real} c = {cos}(q);
-        const {real} half_turn = (s < {zero}) ? -{half_turn} : {half_turn};
         int step;
-        angle = (c < {zero}) ? (half_turn - s) : s;
+        angle = s;
+        if (c < {zero})
+        {{
+            angle = {half_turn} - s;
+            if (s < {zero})
+            {{
+                angle = -{half_turn} - s;
+            }}
+        }}
         /* Newton's method: three steps are enough. */
         for (step = 0; step < 4; step++)
         {{
@@ -117,7 +124,7 @@ fn is_singular(target: &Target<'_>) -> String {
  * is within 16 N epsilon of 0, rows of the velocity divided by the length of the chain. A
  * volume that is NaN has been divided by a row of length 0.
  */
-static bool {name}({real} volume_squared, const {real} q[{joints}])
+static bool {name}(const {real} q[{joints}], {real} volume_squared)
 {{
 {least}    bool singular = !(volume_squared > least);
     size_t i;
@@ -161,10 +168,19 @@ fn least(target: &Target<'_>) -> String {
     for joint in sliding {
         let (name, offset) = (format!("q_{}", joint + 1), target.own("offset"));
         text += &format!(
-            "    const {real} {name} = {offset}(q[{joint}]);\n    length += ({name} < {zero}) ? -{name} : {name};\n"
+            "    const {real} {name} = {offset}(q[{joint}]);
+    if ({name} < {zero})
+    {{
+        length -= {name};
+    }}
+    else
+    {{
+        length += {name};
+    }}
+"
         );
     }
-    text += &format!("    length = (length < {one}) ? {one} : length;\n");
+    text += &format!("    if (length < {one})\n    {{\n        length = {one};\n    }}\n");
     let velocities = TaskRow::ALL[..3].iter();
     for _ in velocities.filter(|row| model.task().contains(**row)) {
         text += "    least *= length;\n";
