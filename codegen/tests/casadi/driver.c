@@ -1,6 +1,7 @@
-/* Calls an arm's functions as casadi.external does, and says what is wrong. Compiled with ARM (its name), HEADER (its file), JOINTS and PAYLOAD (0 or 1). */
+/* Calls an arm's functions as casadi.external does, and says what is wrong. Compiled with ARM (its name), HEADER and OTHER (its files), JOINTS and PAYLOAD (0 or 1). */
 
 #include HEADER
+#include OTHER
 
 #include <math.h>
 #include <stdio.h>

@@ -12,8 +12,6 @@ use crate::{Compiled, MethodProgram};
 /// A function of CasADi with one output, and its Jacobian.
 #[derive(Debug)]
 pub(super) struct Function {
-    /// Of the names of what the functions share.
-    prefix: String,
     value: Interface,
     jacobian: Interface,
     /// The statement that computes the output.
@@ -98,15 +96,12 @@ impl Function {
         // The output where the Jacobian is taken: it is not used, and so passed without entries.
         let nominal = (format!("out_{output}"), vec![n, 1, 0, 0]);
         Some(Self {
-            prefix: target.own("casadi"),
             jacobian: Interface {
-                prefix: target.own("casadi"),
                 name: format!("jac_{name}"),
                 inputs: inputs.iter().cloned().chain([nominal]).collect(),
                 outputs: by_inputs,
             },
             value: Interface {
-                prefix: target.own("casadi"),
                 name,
                 inputs,
                 outputs: vec![(output.to_owned(), vec![n, 1, 1])],
@@ -123,7 +118,7 @@ impl Function {
 
     /// Both functions.
     pub(super) fn definitions(&self) -> String {
-        let value = self.given() + &wanted(0..1, &[self.call.clone()]);
+        let value = self.given() + &wanted(0..1, std::slice::from_ref(&self.call));
         let mut jacobian = self.given();
         let mut first = 0;
         for Computed {
@@ -138,10 +133,7 @@ impl Function {
             lines.extend(statements.iter().cloned());
             lines.extend(places.clone().zip(blocks).map(|(i, block)| {
                 let pattern = self.jacobian.sparsity_of(i);
-                format!(
-                    "{}_pick(&result[{}], {pattern}, res[{i}]);",
-                    self.prefix, block.start
-                )
+                format!("pick(&result[{}], {pattern}, res[{i}]);", block.start)
             }));
             jacobian.push_str(&wanted(places, &lines));
         }
@@ -153,11 +145,7 @@ impl Function {
         let mut text = String::new();
         for (i, (name, _)) in self.value.inputs.iter().enumerate() {
             // Writing to a String does not fail.
-            let _ = writeln!(
-                text,
-                "    const double *const {name} = {}_given(arg[{i}]);",
-                self.prefix
-            );
+            let _ = writeln!(text, "    const double *const {name} = given(arg[{i}]);");
         }
         text
     }
@@ -197,8 +185,7 @@ fn accelerations_by_payload(target: &Target<'_>, compiled: &Compiled) -> Option<
         call(target, compiled, inverse, "derivatives")?,
         call(target, compiled, Method::Regressor, "regressor")?,
         format!(
-            "{}_solved(&derivatives[{inverse_start}], &regressor[{}], {n}, {columns}, result);",
-            target.own("casadi"),
+            "solved(&derivatives[{inverse_start}], &regressor[{}], {n}, {columns}, result);",
             torques.start
         ),
     ];

@@ -6,8 +6,6 @@ use std::fmt::Write as _;
 #[derive(Debug)]
 pub(super) struct Interface {
     pub(super) name: String,
-    /// Of the names of what the functions share.
-    pub(super) prefix: String,
     pub(super) inputs: Vec<(String, Vec<usize>)>,
     pub(super) outputs: Vec<(String, Vec<usize>)>,
 }
@@ -95,10 +93,7 @@ impl Interface {
                 format!(
                     "int {name}_work(long long int *sz_arg, long long int *sz_res, long long int *sz_iw, long long int *sz_w)"
                 ),
-                format!(
-                    "    return {}_sizes({inputs}, {outputs}, sz_arg, sz_res, sz_iw, sz_w);\n",
-                    self.prefix
-                ),
+                format!("    return sizes({inputs}, {outputs}, sz_arg, sz_res, sz_iw, sz_w);\n",),
             ),
             (
                 format!("long long int {name}_n_in(void)"),

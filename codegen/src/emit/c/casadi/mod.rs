@@ -12,7 +12,7 @@ mod interface;
 
 use ulna::{Method, Payload};
 
-use super::interface::Further;
+use super::interface::{File, guarded};
 use super::lines::comment;
 use super::options::Precision;
 use super::target::Target;
@@ -33,45 +33,60 @@ pub(super) fn needed(has_payload: bool) -> Vec<Method> {
     methods
 }
 
-/// The functions. None in single precision, which CasADi does not speak, nor where a method that they [need](needed) is not compiled.
-pub(super) fn further(target: &Target<'_>, compiled: &Compiled) -> Further {
+/// The two files, which include the arm's own header. None in single precision, which CasADi does not speak, nor where a method that they
+/// [need](needed) is not compiled.
+///
+/// They are files of their own because nothing in `NAME.c` should be called from there and from elsewhere (MISRA C:2012, rule 8.7).
+pub(super) fn further(target: &Target<'_>, compiled: &Compiled, about: &[String]) -> Vec<File> {
     let functions = Function::inverse_dynamics(target, compiled)
         .zip(Function::forward_dynamics(target, compiled));
     match functions {
-        Some((inverse, forward)) if target.options.precision == Precision::Double => Further {
-            prototypes: vec![
-                comment(&about(target)) + &inverse.prototypes(),
-                forward.prototypes(),
-            ],
-            definitions: vec![
-                helpers(target),
-                inverse.definitions(),
-                forward.definitions(),
-            ],
-        },
-        _ => Further::default(),
+        Some((inverse, forward)) if target.options.precision == Precision::Double => {
+            let functions = [inverse, forward];
+            let name = target.own("casadi");
+            vec![
+                (format!("{name}.h"), header(target, &functions, about)),
+                (format!("{name}.c"), source(target, &functions, about)),
+            ]
+        }
+        _ => Vec::new(),
     }
 }
 
-fn about(target: &Target<'_>) -> Vec<String> {
+fn header(target: &Target<'_>, functions: &[Function; 2], about: &[String]) -> String {
     let name = target.model.name();
-    let file = format!("cc -O2 -shared -fPIC {name}.c -o lib{name}.so -lm");
+    let build = format!("cc -O2 -shared -fPIC {name}.c {name}_casadi.c -o lib{name}.so -lm");
     let load = format!(
         "casadi.external(\"{}\", \"./lib{name}.so\")",
         target.own("casadi_forward_dynamics")
     );
-    [
+    let convention = [
         "Inverse and forward dynamics as casadi.external takes them from a shared library:",
         "",
-        &format!("    {file}"),
+        &format!("    {build}"),
         &format!("    {load}"),
         "",
-        "All are vectors. A Jacobian has a block for each input, by columns, without what is 0 at every state.",
-        "An input that is NULL is 0, an output that is NULL is not computed. iw, w and mem are not used.",
-        "All may be called by several threads at once.",
+        "Inputs and outputs are vectors. A Jacobian has a block for each input, by columns, without what is 0",
+        "at every state. An input that is NULL is 0, an output that is NULL is not computed; iw, w and mem are",
+        "not used. Every function returns 0, and may be called by several threads at once.",
     ]
-    .map(str::to_owned)
-    .to_vec()
+    .map(str::to_owned);
+    let prototypes: String = functions.iter().map(Function::prototypes).collect();
+    guarded(
+        &target.own("casadi_h"),
+        &(comment(about) + &comment(&convention)),
+        &prototypes,
+    )
+}
+
+fn source(target: &Target<'_>, functions: &[Function; 2], about: &[String]) -> String {
+    let name = target.model.name();
+    let definitions: String = functions.iter().map(Function::definitions).collect();
+    format!(
+        "{about}#include \"{name}_casadi.h\"\n\n#include <stddef.h>\n\n#include \"{name}.h\"\n\n{helpers}{definitions}",
+        about = comment(about),
+        helpers = helpers(target),
+    )
 }
 
 /// What the functions share.
@@ -85,7 +100,7 @@ fn helpers(target: &Target<'_>) -> String {
     };
     let zeros = format!(
         "/* An input, or zeros where none is passed. */
-static const double *CASADI_given(const double *input)
+static const double *given(const double *input)
 {{
     static const double zeros[{longest}] = {{ 0 }};
 
@@ -94,14 +109,13 @@ static const double *CASADI_given(const double *input)
 "
     );
     let solved = if has_payload { SOLVED } else { "" };
-    let text = zeros + PICK + solved + SIZES;
-    text.replace("CASADI", &target.own("casadi"))
+    zeros + PICK + solved + SIZES
 }
 
 const PICK: &str = "
 /* The entries of a matrix by columns that a sparsity has; nothing if they are not wanted.
  * A sparsity is rows, columns and a 1 if it has all; or rows, columns, where each column begins among the entries, their rows. */
-static void CASADI_pick(const double matrix[], const long long int sparsity[], double *entries)
+static void pick(const double matrix[], const long long int sparsity[], double *entries)
 {
     if (entries != NULL)
     {
@@ -133,7 +147,7 @@ static void CASADI_pick(const double matrix[], const long long int sparsity[], d
 
 const SOLVED: &str = "
 /* -A B of a square matrix and one of as many rows, all by columns. */
-static void CASADI_solved(const double a[], const double b[], int rows, int columns, double result[])
+static void solved(const double a[], const double b[], int rows, int columns, double result[])
 {
     int i;
     int j;
@@ -155,7 +169,7 @@ static void CASADI_solved(const double a[], const double b[], int rows, int colu
 
 const SIZES: &str = "
 /* Lengths of what a call is passed. */
-static int CASADI_sizes(long long int inputs, long long int outputs, long long int *sz_arg, long long int *sz_res,
+static int sizes(long long int inputs, long long int outputs, long long int *sz_arg, long long int *sz_res,
     long long int *sz_iw, long long int *sz_w)
 {
     if (sz_arg != NULL)
