@@ -106,7 +106,7 @@ impl Generator {
         watch: &dyn Fn(Stage),
     ) -> GeneratedC {
         let compiled = self.compile_watched(model, watch);
-        GeneratedC::new(model, file_name(source), compiled, options, watch)
+        GeneratedC::watched(model, file_name(source), &compiled, options, watch)
     }
 
     /// As [`compile`](crate::compile).

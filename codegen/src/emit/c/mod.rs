@@ -43,11 +43,18 @@ pub struct GeneratedC {
 }
 
 impl GeneratedC {
-    /// Emits the methods of `model`'s arm. `source` names the table; `watch` is told of every method before it is printed.
-    pub(crate) fn new(
+    /// The programs `compiled` of `model`'s arm. `source` names the table.
+    ///
+    /// [`Generator::generate_c`](crate::Generator::generate_c) does both; who wants several precisions compiles once.
+    pub fn of(model: &Model, source: &str, compiled: &Compiled, options: COptions) -> Self {
+        Self::watched(model, source, compiled, options, &|_| ())
+    }
+
+    /// The same; `watch` is told of every method before it is printed.
+    pub(crate) fn watched(
         model: &Model,
         source: &str,
-        compiled: Compiled,
+        compiled: &Compiled,
         options: COptions,
         watch: &dyn Fn(Stage),
     ) -> Self {
@@ -57,7 +64,7 @@ impl GeneratedC {
             .iter()
             .map(|method| (method.method, Counts::of(&method.program)))
             .collect();
-        let mut about = header(model, source, &compiled, &counts, ABSENT);
+        let mut about = header(model, source, compiled, &counts, ABSENT);
         if options.precision == Precision::Float {
             about.push(
                 "This is in single precision: all errors are 5.4e8 times as large.".to_owned(),
@@ -79,9 +86,9 @@ impl GeneratedC {
             name: model.name().to_owned(),
             header: header_file(&target, &about, &prototypes),
             source: source_file(&target, &about, &definitions),
-            further: interface::further(&target, &compiled, &about[..about.len().min(2)]),
+            further: interface::further(&target, compiled, &about[..about.len().min(2)]),
             counts,
-            warnings: compiled.warnings,
+            warnings: compiled.warnings.clone(),
         }
     }
 
