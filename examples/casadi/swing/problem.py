@@ -5,6 +5,9 @@ from dataclasses import dataclass
 import casadi as ca
 import numpy as np
 
+# How much being off the straight way counts beside the torques: without it, arms with light wrists have many minima that hardly differ.
+TRACKING = 1.0
+
 
 @dataclass
 class Task:
@@ -26,20 +29,10 @@ class Task:
         return position, rate, acceleration
 
 
-@dataclass
-class Program:
-    """A nonlinear program of CasADi's, where to start, and bounds of the variables. Constraints are 0."""
-
-    nlp: dict
-    first: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
-
-
 def shooting(task: Task, forward_dynamics, torques):
     """Multiple shooting with the forward dynamics, a step of Runge and Kutta's fourth order an interval, torques constant on each.
 
-    `torques`, a knot a row, are those of the guess.
+    `torques`, a knot a row, are those of the guess. Returns the nonlinear program, whose constraints are 0, and where to start.
     """
     n, h = len(task.start), task.seconds / task.intervals
     position, rate, _ = task.guess()
@@ -60,10 +53,9 @@ def shooting(task: Task, forward_dynamics, torques):
     constraints = [at[0] - ca.vertcat(task.start, rest), at[-1] - ca.vertcat(task.goal, rest)]
     constraints += [step(at[k], by[k]) - at[k + 1] for k in range(task.intervals)]
     cost = h * sum(ca.sumsqr(torque) for torque in by)
+    cost += TRACKING * h * sum(ca.sumsqr(at[k][:n] - position[k]) for k in range(task.intervals + 1))
     first = np.concatenate([np.hstack([position, rate]).ravel(), (torques[:-1] / task.scale).ravel()])
-    room = np.concatenate([np.tile(room_around(position, rate), task.intervals + 1), np.full(n * task.intervals, 10.0)])
-    nlp = {"x": ca.vertcat(*at, *by), "f": cost, "g": ca.vertcat(*constraints)}
-    return Program(nlp, first, first - room, first + room)
+    return {"x": ca.vertcat(*at, *by), "f": cost, "g": ca.vertcat(*constraints)}, first
 
 
 def transcription(task: Task, inverse_dynamics):
@@ -76,14 +68,6 @@ def transcription(task: Task, inverse_dynamics):
         constraints += [q[k + 1] - q[k] - h / 2 * (qd[k] + qd[k + 1]), qd[k + 1] - qd[k] - h / 2 * (qdd[k] + qdd[k + 1])]
     weights = [h / 2, *[h] * (task.intervals - 1), h / 2]
     cost = sum(weight * ca.sumsqr(inverse_dynamics(*knot) / task.scale) for weight, *knot in zip(weights, q, qd, qdd))
+    cost += TRACKING * h * sum(ca.sumsqr(q[k] - position[k]) for k in range(task.intervals + 1))
     first = np.concatenate([position.ravel(), rate.ravel(), acceleration.ravel()])
-    of_state, knots = room_around(position, rate), task.intervals + 1
-    room = np.concatenate([np.tile(of_state[:n], knots), np.tile(of_state[n:], knots), np.full(n * knots, 10 * abs(acceleration).max())])
-    nlp = {"x": ca.vertcat(*q, *qd, *qdd), "f": cost, "g": ca.vertcat(*constraints)}
-    return Program(nlp, first, first - room, first + room)
-
-
-def room_around(position, rate):
-    """How far a state may be off the guess: a radian, and a few times the largest rate."""
-    n = position.shape[1]
-    return np.concatenate([np.full(n, 1.0), np.full(n, 3 * abs(rate).max())])
+    return {"x": ca.vertcat(*q, *qd, *qdd), "f": cost, "g": ca.vertcat(*constraints)}, first
