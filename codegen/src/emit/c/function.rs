@@ -98,7 +98,7 @@ impl<'a, 'p> Function<'a, 'p> {
         let items = self.items();
         let docs = comment(&documentation::definition(self.plan));
         if items.len() > self.target.options.function_length {
-            let (parts, body) = parts::parts(self, items);
+            let (parts, body) = parts::parts(self, &items);
             return format!(
                 "{docs}{parts}\n{}\n{{\n{}{body}}}\n",
                 self.signature(),

@@ -168,13 +168,14 @@ typedef {scalar} {real};
 fn source_file(target: &Target<'_>, about: &[String], definitions: &[String]) -> String {
     let code = definitions.join("\n");
     let code = support::helpers(target, &code) + &code;
-    let headers = [
-        ("float.h", "_MAX"),
-        ("math.h", "(q"),
-        ("stdbool.h", "bool "),
-        ("stddef.h", "size_t"),
+    let calls = |function: &str| code.contains(&format!("{}(", target.math(function)));
+    let needed = [
+        ("float.h", code.contains(target.largest())),
+        ("math.h", ["sin", "cos", "sqrt"].into_iter().any(calls)),
+        ("stdbool.h", code.contains("bool ")),
+        ("stddef.h", code.contains("size_t")),
     ];
-    let needed = headers.iter().filter(|(_, sign)| code.contains(sign));
+    let needed = needed.iter().filter(|(_, is_needed)| *is_needed);
     let needed: String = needed
         .map(|(header, _)| format!("#include <{header}>\n"))
         .collect();

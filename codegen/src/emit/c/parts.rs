@@ -10,7 +10,7 @@ use super::lines::statement;
 const STATE: &str = "state";
 
 /// The structure and the functions of the parts, and the statements that call them.
-pub(super) fn parts(function: &Function<'_, '_>, items: Vec<Item>) -> (String, String) {
+pub(super) fn parts(function: &Function<'_, '_>, items: &[Item]) -> (String, String) {
     let (plan, target) = (function.plan, function.target);
     let longest = target.options.function_length;
     let length = items.len().div_ceil(items.len().div_ceil(longest));

@@ -40,7 +40,7 @@ fn angle(target: &Target<'_>) -> String {
     let [zero, limit, half_turn] = [0.0, PLAIN_LIMIT, PI].map(|x| target.number(x));
     format!(
         "/*
- * How the coordinate of a revolute joint is read, rad: as it is up to {limit_text} rad, beyond that as the
+ * How the coordinate of a revolute joint is read, rad: as it is up to {PLAIN_LIMIT} rad, beyond that as the
  * same angle within a half turn. NaN if it is not finite.
  */
 static {real} {name}({real} q)
@@ -69,7 +69,6 @@ static {real} {name}({real} q)
     return angle;
 }}
 ",
-        limit_text = PLAIN_LIMIT,
     )
 }
 
@@ -78,7 +77,7 @@ fn offset(target: &Target<'_>) -> String {
     let [zero, limit] = [0.0, PRISMATIC_LIMIT].map(|x| target.number(x));
     format!(
         "/*
- * How the coordinate of a prismatic joint is read, m: within {limit_text} m either way. NaN if it is
+ * How the coordinate of a prismatic joint is read, m: within {PRISMATIC_LIMIT} m either way. NaN if it is
  * not finite.
  */
 static {real} {name}({real} q)
@@ -95,7 +94,6 @@ static {real} {name}({real} q)
     return offset;
 }}
 ",
-        limit_text = PRISMATIC_LIMIT,
     )
 }
 
