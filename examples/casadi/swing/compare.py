@@ -1,5 +1,6 @@
 """Each problem, solved with the external arm and with CasADi's own expressions."""
 
+import sys
 import time
 from dataclasses import dataclass
 
@@ -13,6 +14,8 @@ TASKS = {
     "planar_2r": problem.Task(np.zeros(2), np.array([1.0, -0.8]), 2.0, 20),
     "ssrms": problem.Task(np.zeros(7), 0.3 * np.array([1.0, -0.8, 0.6, -0.4, 0.5, -0.3, 0.2]), 20.0, 20),
 }
+# Transcription with a limited-memory Hessian is left out: of ssrms neither way ends within 1,000 iterations.
+PAIRS = [("shooting", "limited-memory"), ("shooting", "exact"), ("transcription", "exact")]
 HESSIANS = {"limited-memory": "limited memory", "exact": "of the Lagrangian"}
 # Two optima are the same if they differ by no more, relatively.
 SAME = 1e-6
@@ -57,11 +60,10 @@ def arm(name: str) -> Arm:
     torques = np.array([np.array(ways["own"][0](*knot)).ravel() for knot in zip(*task.guess())])
     task.scale = np.maximum(abs(torques).max(axis=0), 0.05 * abs(torques).max())
     pairs = []
-    for formulation in ("shooting", "transcription"):
-        for hessian in HESSIANS:
-            found = {who: solved(formulation, hessian, task, functions, torques) for who, functions in ways.items()}
-            pairs.append(Pair(formulation, hessian, **found))
-            print(name, pairs[-1], flush=True)
+    for formulation, hessian in PAIRS:
+        found = {who: solved(formulation, hessian, task, functions, torques) for who, functions in ways.items()}
+        pairs.append(Pair(formulation, hessian, **found))
+        print(name, pairs[-1], file=sys.stderr, flush=True)
     n = len(task.start)
     generated = through_generated_code(name, ways["external"], path)
     return Arm(name, task, pairs, difference(ways, n), generated, calls(ways, n))

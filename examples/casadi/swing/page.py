@@ -79,5 +79,7 @@ not acados itself.
 Written by `python3 examples/casadi/run.py` on {date}: CasADi {casadi} with the IPOPT of its wheel, Python {python}, {machine}, `cc -O2`; other programs ran beside it.
 From rest to rest, least squares of the torques, each in units of the largest that the straight way takes, and of the distance from the straight way.
 `shooting` is multiple shooting with the forward dynamics (Runge and Kutta, fourth order), `transcription` has the accelerations among its variables and the
-inverse dynamics in its cost. `own` is the textbook in CasADi's SX: Newton and Euler's torques, M by composite rigid bodies, solved by LDL factors. Tolerance 1e-6.
+inverse dynamics in its cost. `own` is the textbook in CasADi's SX: Newton and Euler's torques, M by composite rigid bodies, solved by LDL factors,
+run by CasADi's interpreter; compiled by its code generator, the same formulations are compared in `benches/peers/results.md`. Tolerance 1e-6.
+With a limited-memory Hessian the transcription of ssrms ends within 1,000 iterations neither way, and is left out.
 """

@@ -121,11 +121,10 @@ static void pick(const double matrix[], const long long int sparsity[], double *
     {
         const long long int rows = sparsity[0];
         const long long int columns = sparsity[1];
-        long long int j;
-        long long int k;
 
         if (sparsity[2] == 1)
         {
+            long long int k;
             for (k = 0; k < (rows * columns); k++)
             {
                 entries[k] = matrix[k];
@@ -133,8 +132,10 @@ static void pick(const double matrix[], const long long int sparsity[], double *
         }
         else
         {
+            long long int j;
             for (j = 0; j < columns; j++)
             {
+                long long int k;
                 for (k = sparsity[2 + j]; k < sparsity[3 + j]; k++)
                 {
                     entries[k] = matrix[(rows * j) + sparsity[3 + columns + k]];
@@ -149,14 +150,14 @@ const SOLVED: &str = "
 /* -A B of a square matrix and one of as many rows, all by columns. */
 static void solved(const double a[], const double b[], int rows, int columns, double result[])
 {
-    int i;
     int j;
-    int k;
     for (j = 0; j < columns; j++)
     {
+        int i;
         for (i = 0; i < rows; i++)
         {
             double sum = 0.0;
+            int k;
             for (k = 0; k < rows; k++)
             {
                 sum += a[i + (rows * k)] * b[k + (rows * j)];

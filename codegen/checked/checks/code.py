@@ -1,0 +1,148 @@
+"""The C code of an arm: generated, compiled, looked at, run under valgrind."""
+
+import os
+import re
+import subprocess
+import sys
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+BUILD = ROOT / "target/checked_c"
+
+WARNINGS = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"]
+COMPILERS = ["gcc", "clang"]
+CONTRACTIONS = ["off", "fast"]
+PRECISIONS = ["double", "float"]
+# Multiply-adds are there to be fused.
+MACHINE = ["-march=x86-64-v3"]
+
+PROTOTYPE = re.compile(r"^void (\w+)\(([^)]*)\);", re.MULTILINE)
+PARAMETER = re.compile(r"(\w+)\[(\d+)\]")
+
+
+@dataclass
+class Files:
+    arm: str
+    precision: str
+    folder: Path
+
+    def sources(self):
+        return sorted(self.folder.glob("*.c"))
+
+    def library(self, compiler, contraction):
+        return self.folder / f"{compiler}-{contraction}.so"
+
+
+@dataclass
+class Checked:
+    arm: str
+    compiled: list  # (precision, compiler, contraction, warnings)
+    findings: dict  # precision -> how often each rule was found against
+    memory: dict  # precision -> what valgrind says, or nothing
+
+    @property
+    def faults(self):
+        warnings = sum(bool(text) for *_, text in self.compiled)
+        return warnings + sum(self.findings[precision].total() for precision in PRECISIONS) + sum(bool(text) for text in self.memory.values())
+
+
+def run(command, may_fail=False, **options):
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
+    if done.returncode != 0 and not may_fail:
+        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+    return done
+
+
+def program():
+    run(["cargo", "build", "--package", "ulna-cli"], cwd=ROOT)
+    return ROOT / "target/debug/ulna"
+
+
+def rust():
+    """Every arm's generated Rust behind C functions: the library of benches/peers, default flags."""
+    target = ROOT / "target/peers/rust-default"
+    cargo = ["cargo", "build", "--release", "--package", "ulna-peers", "--features", "all-arms", "--target-dir", target]
+    run(cargo, cwd=ROOT, env=os.environ | {"RUSTFLAGS": ""})
+    return target / "release/libulna_peers.so"
+
+
+def generated(ulna, arm):
+    """In both precisions, the one in double with CasADi's functions."""
+    found = []
+    for precision in PRECISIONS:
+        files = Files(arm, precision, BUILD / arm / precision)
+        interface = ["--abi", "casadi"] if precision == "double" else []
+        command = [ulna, "generate", ROOT / f"arms/{arm}.toml", "--language", "c", "--precision", precision, *interface]
+        run([*command, "--output", files.folder])
+        found.append(files)
+    return found
+
+
+def compiled(files):
+    found = []
+    for one in files:
+        for compiler in COMPILERS:
+            for contraction in CONTRACTIONS:
+                flags = [*WARNINGS, "-O2", *MACHINE, f"-ffp-contract={contraction}", "-fPIC", "-shared"]
+                done = run([compiler, *flags, *one.sources(), "-o", one.library(compiler, contraction), "-lm"], may_fail=True)
+                found.append((one.precision, compiler, contraction, done.stdout + done.stderr))
+    return found
+
+
+def findings(files):
+    """Of cppcheck, its style included, and of its MISRA add-on. Alone in a folder: runs in one folder overwrite each other's files."""
+    found = {}
+    for one in files:
+        checks = ["--addon=misra", "--enable=warning,style,performance,portability", "--quiet", "--template={id}"]
+        done = run(["cppcheck", *checks, *[path.name for path in one.sources()]], cwd=one.folder)
+        found[one.precision] = Counter(done.stderr.split("\n")[:-1])
+    return found
+
+
+def prototypes(files):
+    """Names of the functions for methods, each with the names and lengths of its parameters."""
+    header = (files.folder / f"{files.arm}.h").read_text()
+    return {name: [(parameter, int(length)) for parameter, length in PARAMETER.findall(text)] for name, text in PROTOTYPE.findall(header)}
+
+
+def memory(files):
+    """Every function on arrays that are as long as its prototype says, the results read: nothing that is not there, nothing that was not written."""
+    found = {}
+    for one in files:
+        program = one.folder / "every_function"
+        source = program.with_suffix(".txt")
+        source.write_text(every_function(one))
+        run(["gcc", "-g", "-O1", "-x", "c", source, "-x", "none", one.folder / f"{one.arm}.c", "-I", one.folder, "-o", program, "-lm"])
+        command = ["valgrind", "--quiet", "--error-exitcode=9", "--leak-check=full", "--track-origins=no", program]
+        done = run(command, may_fail=True)
+        found[one.precision] = done.stderr if done.returncode else ""
+    return found
+
+
+def every_function(files):
+    calls = []
+    for name, parameters in prototypes(files).items():
+        arrays = [f"    {files.precision} *{parameter} = numbers({length});" for parameter, length in parameters[:-1]]
+        last, length = parameters[-1]
+        arrays.append(f"    {files.precision} *{last} = malloc({length} * sizeof *{last});")
+        names = [parameter for parameter, _ in parameters]
+        frees = "".join(f" free({parameter});" for parameter in names)
+        calls.append("\n".join(["  {", *arrays, f"    {name}({', '.join(names)});", f"    read({last}, {length});{frees}", "  }"]))
+    return f"""#include "{files.arm}.h"
+#include <stdio.h>
+#include <stdlib.h>
+static {files.precision} *numbers(int count) {{
+  {files.precision} *found = malloc((size_t)count * sizeof *found);
+  for (int i = 0; i < count; i++) found[i] = ({files.precision})(0.1 + 0.05 * i);
+  return found;
+}}
+static void read(const {files.precision} *found, int count) {{
+  for (int i = 0; i < count; i++) if (found[i] != found[i]) exit(8);
+}}
+int main(void) {{
+{chr(10).join(calls)}
+  return 0;
+}}
+"""

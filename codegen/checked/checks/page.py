@@ -1,0 +1,57 @@
+"""docs/c.md."""
+
+import datetime
+import statistics
+import subprocess
+
+from .code import COMPILERS, CONTRACTIONS, MACHINE, PRECISIONS, WARNINGS
+
+
+def page(checked, differences):
+    arms = [one.arm for one in checked]
+    compared = ", ".join(dict.fromkeys(one.arm for one in differences))
+    rules = sum((one.findings[precision] for one in checked for precision in PRECISIONS), start=type(checked[0].findings["double"])())
+    lines = [
+        "# The C code of every arm, checked\n",
+        f"Written by `python3 codegen/checked/run.py` on {datetime.date.today()}, of {len(arms)} arms: {', '.join(arms)}.",
+        f"{', '.join(version(program) for program in (*COMPILERS, 'cppcheck', 'valgrind'))}.\n",
+        f"- `{' '.join(WARNINGS)} -O2`, in double and in single precision, `-ffp-contract=off` and `fast`: "
+        f"**{sum(bool(text) for one in checked for *_, text in one.compiled)}** of {sum(len(one.compiled) for one in checked)} compilations warn.",
+        f"- cppcheck with warnings, style, performance, portability and the MISRA add-on: **{rules.total()} findings**, CasADi's interface included"
+        + (f" ({', '.join(f'{rule}: {count}' for rule, count in sorted(rules.items()))})." if rules else "."),
+        "  This is not a claim of compliance: the add-on knows part of the rules.",
+        f"- valgrind, every function on arrays as long as its prototype says: **{sum(bool(text) for one in checked for text in one.memory.values())}**"
+        f" of {2 * len(checked)} programs read or write what they should not, use what was not written, or leak.\n",
+        "## C beside Rust\n",
+        f"The largest difference between a result in C and Rust's in double precision, over 100 random states of each of {compared}, in units of the last place"
+        " (2⁻⁵² in double, 2⁻²³ in single precision) of the largest entry of the part of the result; the arm where it is. Rust fuses products and sums where it"
+        f" finds that in a formula; C leaves that to the compiler (`{' '.join(MACHINE)}`). Sines are the C library's here and ulna's own there."
+        " `median` is that of the worst arm's states. Where a matrix is nearly singular, any two orders of rounding differ by its condition number.\n",
+        table(differences, "double"),
+        "\n### In single precision\n",
+        table(differences, "float"),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def table(differences, precision):
+    columns = [(compiler, contraction) for compiler in COMPILERS for contraction in CONTRACTIONS]
+    titles = "".join(f" {compiler}, {contraction} |" for compiler, contraction in columns)
+    lines = [f"| |{titles} median | arm |", f"|---|{'--:|' * (len(columns) + 1)}---|"]
+    for method in dict.fromkeys(one.method for one in differences):
+        of = [one for one in differences if one.method == method and one.precision == precision]
+        cells = [max((one for one in of if (one.compiler, one.contraction) == column), key=lambda one: one.ulp) for column in columns]
+        worst = max(cells, key=lambda one: one.ulp)
+        numbers = "".join(f" {short(one.ulp)} |" for one in cells)
+        lines.append(f"| {method} |{numbers} {short(worst.median)} | {worst.arm} |")
+    usual = statistics.median(one.median for one in differences if one.precision == precision)
+    return "\n".join(lines) + f"\n\nThe median over all arms, methods, compilers and states is {usual:.1f} units."
+
+
+def short(number):
+    return f"{number:.1f}" if number < 10 else f"{number:,.0f}"
+
+
+def version(program):
+    text = subprocess.run([program, "--version"], capture_output=True, text=True).stdout.splitlines()[0]
+    return text
