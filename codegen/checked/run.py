@@ -4,6 +4,8 @@
     python3 codegen/checked/run.py             all arms; writes docs/c.md
     python3 codegen/checked/run.py planar_2r   that one; prints the page
 
+What is said of the same files once is not asked for again (target/checked_c), so that a run can be carried on.
+
 Needs cargo, gcc, clang, cppcheck with its MISRA add-on, and valgrind, and no package of Python's. Half an hour of processor time.
 Exit code 1 for any warning, finding or error, and where C and Rust differ by more than the rounding of both explains.
 """
@@ -23,6 +25,7 @@ def main():
     parser.add_argument("arms", nargs="*", help="names of tables in arms/")
     parser.add_argument("--ulna", type=Path, help="the program, if it has been built")
     parser.add_argument("--rust", type=Path, help="the library of benches/peers, if it has been built: the arms in it are compared")
+    parser.add_argument("--output", type=Path, help="the page; docs/c.md if no arm is named")
     parser.add_argument("--jobs", type=int, default=2, help="arms at a time")
     options = parser.parse_args()
     names = options.arms or sorted(path.stem for path in (ROOT / "arms").glob("*.toml"))
@@ -30,8 +33,7 @@ def main():
     rust = options.rust.resolve() if options.rust else code.rust()
 
     def one(name):
-        files = code.generated(ulna, name)
-        done = code.Checked(name, code.compiled(files), code.findings(files), code.memory(files))
+        done = code.checked(name, code.generated(ulna, name))
         print(name, "compiled, checked, run", file=sys.stderr, flush=True)
         return done
 
@@ -39,8 +41,9 @@ def main():
         checked = list(pool.map(one, names))
     differences = [difference for name in names for difference in agreement.differences(name, rust)]
     text = page.page(checked, differences)
-    if not options.arms:
-        (ROOT / "docs/c.md").write_text(text)
+    output = options.output or (None if options.arms else ROOT / "docs/c.md")
+    if output:
+        output.write_text(text)
     print(text)
     sys.exit(any(one.faults for one in checked) or any(not difference.explained for difference in differences))
 

@@ -1,6 +1,8 @@
 """The C code of an arm: generated, compiled, looked at, run under valgrind."""
 
+import hashlib
 import os
+import pickle
 import re
 import subprocess
 import sys
@@ -78,6 +80,18 @@ def generated(ulna, arm):
         run([*command, "--output", files.folder])
         found.append(files)
     return found
+
+
+def checked(arm, files):
+    """All that is said of an arm's files, by all of them and the commands that are run on them."""
+    said = hashlib.sha256(repr([WARNINGS, MACHINE, COMPILERS, CONTRACTIONS, Path(__file__).read_text()]).encode())
+    for one in files:
+        for path in [*one.sources(), *sorted(one.folder.glob("*.h"))]:
+            said.update(path.read_bytes())
+    record = BUILD / arm / f"{said.hexdigest()[:16]}.pickle"
+    if not record.exists():
+        record.write_bytes(pickle.dumps(Checked(arm, compiled(files), findings(files), memory(files))))
+    return pickle.loads(record.read_bytes())
 
 
 def compiled(files):

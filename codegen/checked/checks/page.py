@@ -28,10 +28,18 @@ def page(checked, differences):
         f" finds that in a formula; C leaves that to the compiler (`{' '.join(MACHINE)}`). Sines are the C library's here and ulna's own there."
         " `median` is that of the worst arm's states. Where a matrix is nearly singular, any two orders of rounding differ by its condition number.\n",
         table(differences, "double"),
+        *unexplained(differences),
         "\n### In single precision\n",
         table(differences, "float"),
     ]
     return "\n".join(lines) + "\n"
+
+
+def unexplained(differences):
+    """What exceeds twice the error that the header states for the method."""
+    of = [one for one in differences if not one.explained]
+    names = sorted({f"{one.method} of {one.arm} in {one.precision} ({one.ulp:,.0f} units, stated {one.bound:,.0f})" for one in of})
+    return [f"\nMore than twice the error that a header states: {', '.join(names) or 'none'}."]
 
 
 def table(differences, precision):
