@@ -1,8 +1,8 @@
 """The C code of an arm: generated, compiled, looked at, run under valgrind."""
 
 import hashlib
+import json
 import os
-import pickle
 import re
 import subprocess
 import sys
@@ -82,16 +82,29 @@ def generated(ulna, arm):
     return found
 
 
-def checked(arm, files):
-    """All that is said of an arm's files, by all of them and the commands that are run on them."""
-    said = hashlib.sha256(repr([WARNINGS, MACHINE, COMPILERS, CONTRACTIONS, Path(__file__).read_text()]).encode())
-    for one in files:
-        for path in [*one.sources(), *sorted(one.folder.glob("*.h"))]:
-            said.update(path.read_bytes())
-    record = BUILD / arm / f"{said.hexdigest()[:16]}.pickle"
+def digest(paths):
+    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()[:8]
+
+
+def said(command, folder, inputs):
+    """What a command prints, and whether it failed; of the same command on the same files only once. Its paths are relative to the folder."""
+    key = hashlib.sha256(json.dumps([str(word) for word in command]).encode())
+    for path in inputs:
+        key.update(path.read_bytes())
+    record = BUILD / "said" / f"{key.hexdigest()[:24]}.json"
     if not record.exists():
-        record.write_bytes(pickle.dumps(Checked(arm, compiled(files), findings(files), memory(files))))
-    return pickle.loads(record.read_bytes())
+        done = run(command, may_fail=True, cwd=folder)
+        record.parent.mkdir(exist_ok=True)
+        record.write_text(json.dumps([done.stdout + done.stderr, done.returncode]))
+    return json.loads(record.read_text())
+
+
+def checked(arm, files):
+    return Checked(arm, compiled(files), findings(files), memory(files))
+
+
+def headers(one):
+    return sorted(one.folder.glob("*.h"))
 
 
 def compiled(files):
@@ -99,19 +112,28 @@ def compiled(files):
     for one in files:
         for compiler in COMPILERS:
             for contraction in CONTRACTIONS:
-                flags = [*WARNINGS, "-O2", *MACHINE, f"-ffp-contract={contraction}", "-fPIC", "-shared"]
-                done = run([compiler, *flags, *one.sources(), "-o", one.library(compiler, contraction), "-lm"], may_fail=True)
-                found.append((one.precision, compiler, contraction, done.stdout + done.stderr))
+                flags = [*WARNINGS, "-O2", *MACHINE, f"-ffp-contract={contraction}", "-fPIC", "-c"]
+                texts, objects = [], []
+                for source in one.sources():
+                    inputs = [source, *headers(one)]
+                    # Another text is another object.
+                    objects.append(f"{source.stem}-{compiler}-{contraction}-{digest(inputs)}.o")
+                    texts.append(said([compiler, *flags, source.name, "-o", objects[-1]], one.folder, inputs)[0])
+                if not any(texts):
+                    run([compiler, "-shared", *objects, "-o", one.library(compiler, contraction), "-lm"], cwd=one.folder)
+                found.append((one.precision, compiler, contraction, "".join(texts)))
     return found
 
 
 def findings(files):
-    """Of cppcheck, its style included, and of its MISRA add-on. Alone in a folder: runs in one folder overwrite each other's files."""
+    """Of cppcheck, its style included, and of its MISRA add-on. One at a time in a folder: runs in one overwrite each other's files."""
     found = {}
     for one in files:
         checks = ["--addon=misra", "--enable=warning,style,performance,portability", "--quiet", "--template={id}"]
-        done = run(["cppcheck", *checks, *[path.name for path in one.sources()]], cwd=one.folder)
-        found[one.precision] = Counter(done.stderr.split("\n")[:-1])
+        lines = []
+        for source in one.sources():
+            lines += said(["cppcheck", *checks, source.name], one.folder, [source, *headers(one)])[0].split("\n")
+        found[one.precision] = Counter(line for line in lines if line)
     return found
 
 
@@ -125,13 +147,13 @@ def memory(files):
     """Every function on arrays that are as long as its prototype says, the results read: nothing that is not there, nothing that was not written."""
     found = {}
     for one in files:
-        program = one.folder / "every_function"
-        source = program.with_suffix(".txt")
+        source = one.folder / "every_function.txt"
         source.write_text(every_function(one))
-        run(["gcc", "-g", "-O1", "-x", "c", source, "-x", "none", one.folder / f"{one.arm}.c", "-I", one.folder, "-o", program, "-lm"])
-        command = ["valgrind", "--quiet", "--error-exitcode=9", "--leak-check=full", "--track-origins=no", program]
-        done = run(command, may_fail=True)
-        found[one.precision] = done.stderr if done.returncode else ""
+        command = ["gcc", "-g", "-O1", "-x", "c", source.name, "-x", "none", "-I.", one.library("gcc", "off").name]
+        run([*command, "-Wl,-rpath,.", "-o", "every_function", "-lm"], cwd=one.folder)
+        command = ["valgrind", "--quiet", "--error-exitcode=9", "--leak-check=full", "./every_function"]
+        text, failed = said(command, one.folder, [source, one.library("gcc", "off")])
+        found[one.precision] = text if failed else ""
     return found
 
 

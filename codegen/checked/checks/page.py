@@ -9,7 +9,6 @@ from .code import COMPILERS, CONTRACTIONS, MACHINE, PRECISIONS, WARNINGS
 
 def page(checked, differences):
     arms = [one.arm for one in checked]
-    compared = ", ".join(dict.fromkeys(one.arm for one in differences))
     rules = sum((one.findings[precision] for one in checked for precision in PRECISIONS), start=type(checked[0].findings["double"])())
     lines = [
         "# The C code of every arm, checked\n",
@@ -22,6 +21,13 @@ def page(checked, differences):
         "  This is not a claim of compliance: the add-on knows part of the rules.",
         f"- valgrind, every function on arrays as long as its prototype says: **{sum(bool(text) for one in checked for text in one.memory.values())}**"
         f" of {2 * len(checked)} programs read or write what they should not, use what was not written, or leak.\n",
+    ]
+    return "\n".join(lines + (beside_rust(differences) if differences else [])) + "\n"
+
+
+def beside_rust(differences):
+    compared = ", ".join(dict.fromkeys(one.arm for one in differences))
+    return [
         "## C beside Rust\n",
         f"The largest difference between a result in C and Rust's in double precision, over 100 random states of each of {compared}, in units of the last place"
         " (2⁻⁵² in double, 2⁻²³ in single precision) of the largest entry of the part of the result; the arm where it is. Rust fuses products and sums where it"
@@ -32,7 +38,6 @@ def page(checked, differences):
         "\n### In single precision\n",
         table(differences, "float"),
     ]
-    return "\n".join(lines) + "\n"
 
 
 def unexplained(differences):

@@ -27,7 +27,7 @@ def section(one: Arm) -> str:
             f"| {pair.formulation} | {HESSIANS[pair.hessian]} | {ends[0]} | {ends[1]} | {a.optimum:.9g} | {b.optimum:.9g} |"
             f" {a.solve:.2f} | {b.solve:.2f} | {a.build:.2f} | {b.build:.2f} |"
         )
-    lines += ["", "A call from within CasADi, µs (2,000 mapped into one):", "", "| | external | own |", "|---|--:|--:|"]
+    lines += ["", "A call from within CasADi, µs of the processor (2,000 mapped into one):", "", "| | external | own |", "|---|--:|--:|"]
     for name in ("inverse dynamics", "forward dynamics"):
         for kind in ("value", "Jacobian"):
             times = [one.calls[name, kind, who] for who in ("external", "own")]
@@ -80,6 +80,6 @@ Written by `python3 examples/casadi/run.py` on {date}: CasADi {casadi} with the 
 From rest to rest, least squares of the torques, each in units of the largest that the straight way takes, and of the distance from the straight way.
 `shooting` is multiple shooting with the forward dynamics (Runge and Kutta, fourth order), `transcription` has the accelerations among its variables and the
 inverse dynamics in its cost. `own` is the textbook in CasADi's SX: Newton and Euler's torques, M by composite rigid bodies, solved by LDL factors,
-run by CasADi's interpreter; compiled by its code generator, the same formulations are compared in `benches/peers/results.md`. Tolerance 1e-6.
+run by CasADi's interpreter; compiled by its code generator, the same formulations are compared in `benches/peers/results.md`. Tolerance 1e-6. Times are those of the processor.
 With a limited-memory Hessian the transcription of ssrms ends within 1,000 iterations neither way, and is left out.
 """
