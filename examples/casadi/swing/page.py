@@ -81,5 +81,6 @@ From rest to rest, least squares of the torques, each in units of the largest th
 `shooting` is multiple shooting with the forward dynamics (Runge and Kutta, fourth order), `transcription` has the accelerations among its variables and the
 inverse dynamics in its cost. `own` is the textbook in CasADi's SX: Newton and Euler's torques, M by composite rigid bodies, solved by LDL factors,
 run by CasADi's interpreter; compiled by its code generator, the same formulations are compared in `benches/peers/results.md`. Tolerance 1e-6. Times are those of the processor.
+Limited-memory steps gather rounding errors, so that they reach the same optimum after another number of iterations.
 With a limited-memory Hessian the transcription of ssrms ends within 1,000 iterations neither way, and is left out.
 """
