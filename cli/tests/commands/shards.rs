@@ -174,7 +174,7 @@ fn a_shard_that_is_killed_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let [killed, whole] = ["killed", "whole"].map(|name| folder.path().join(name));
     let arguments = |output: &Path, shard: &'static str| {
-        let cases = ["--cases", "1500", "--shard", shard, "--threads", "1"];
+        let cases = ["--cases", "450", "--shard", shard, "--threads", "1"];
         let output = output.to_owned();
         (output, cases)
     };
@@ -200,7 +200,7 @@ fn a_shard_that_is_killed_goes_on() {
     run.kill().unwrap();
     assert!(!run.wait().unwrap().success());
     let made = rows();
-    assert!(made > 0 && made < 500, "{made}");
+    assert!(made > 0 && made < 150, "{made}");
 
     // Until then it is named with what it has.
     let merged = folder.path().join("campaign.csv");
@@ -208,16 +208,16 @@ fn a_shard_that_is_killed_goes_on() {
     are(
         &errors,
         &[
-            &format!("shard 2 of 3 is incomplete, {made} of 500 rows are made"),
+            &format!("shard 2 of 3 is incomplete, {made} of 150 rows are made"),
             "missing of 3 shards: 1, 3; ",
         ],
     );
     let err = stderr(&campaign(&killed, &cases).code(0));
     assert!(
-        err.contains(&format!("{made} of 500 cases are in")),
+        err.contains(&format!("{made} of 150 cases are in")),
         "{err}"
     );
-    assert!(err.contains(&format!("{} cases in", 500 - made)), "{err}");
+    assert!(err.contains(&format!("{} cases in", 150 - made)), "{err}");
     let (output, cases) = arguments(&whole, "2/3");
     campaign(&output, &cases).code(0);
     for end in ["csv", "json"] {
