@@ -31,8 +31,8 @@ pub(crate) use row::{LawCells, Row};
 use summary::Summary;
 pub(crate) use summary::median;
 
-/// The most cases of a run that sums up: their rows are in memory together, with what is counted of them half a kilobyte
-/// each with six laws.
+/// The most cases of a run that sums up: their rows are in memory together, with what is counted of them 0.8 KB each with
+/// six laws.
 const MOST_SUMMED_UP: u64 = 10_000_000;
 
 /// Vary a scenario: every joint, a grid of failure times, random starts, goals and forces

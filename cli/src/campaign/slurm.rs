@@ -19,7 +19,7 @@ const EXTRA_MINUTES: f64 = 10.0;
 /// What merging takes of a row, s: 0.5 KB that are read and written, by a slow disk.
 const MERGE_SECONDS: f64 = 5e-6;
 /// What a row that is summed up takes in memory, MB.
-const SUMMED_UP_MB: f64 = 1.2e-3;
+const SUMMED_UP_MB: f64 = 1e-3;
 
 /// What `bash` runs: it submits itself as an array, each task of which makes a shard, and their merge for when all are made.
 pub(super) struct Script {
