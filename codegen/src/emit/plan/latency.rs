@@ -9,7 +9,7 @@ use crate::schedule::{Operand, Program, Step};
 
 /// A summand of a sum or difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Summand {
+pub(in crate::emit) enum Summand {
     First,
     Second,
 }
