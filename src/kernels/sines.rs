@@ -60,7 +60,6 @@ impl Call for One {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Real as _;
 
     #[test]
     fn every_number_of_angles_is_that_of_one_by_one() {
