@@ -7,7 +7,7 @@ use ulna::internal::numbers;
 use ulna::nalgebra::Vector2;
 use ulna::proof::{self, State, states};
 use ulna::{Argument, Arm, Method, Payload, PayloadError};
-use ulna_codegen::Generator;
+use ulna_codegen::{Generator, Input, Operand};
 use ulna_generated::{Geared6, Planar2r};
 use ulna_jit::{AnyJit, CallError, Error, Jit};
 use ulna_table::Model;
@@ -192,12 +192,23 @@ fn a_program_of_another_arm_is_refused() {
     let foreign = ulna_codegen::compile(&model("planar_3r"));
     let refused = AnyJit::of(&model("planar_2r"), &foreign);
     assert!(matches!(refused, Err(Error::Program { .. })), "{refused:?}");
-    let mut broken = Generator::new()
-        .methods(&[Method::MassMatrix])
-        .compile(&model("planar_2r"));
-    broken.methods[0].program.steps.reverse();
-    let refused = AnyJit::of(&model("planar_2r"), &broken);
-    assert!(matches!(refused, Err(Error::Program { .. })), "{refused:?}");
+    let operands = [
+        Operand::Step(0),
+        Operand::Input(Input::Q(2)),
+        Operand::Input(Input::Sin(9)),
+        Operand::Input(Input::Tau(0)),
+    ];
+    for operand in operands {
+        let mut broken = Generator::new()
+            .methods(&[Method::MassMatrix])
+            .compile(&model("planar_2r"));
+        broken.methods[0].program.steps[0].a = operand;
+        let refused = AnyJit::of(&model("planar_2r"), &broken);
+        assert!(
+            matches!(refused, Err(Error::Program { .. })),
+            "{operand:?}: {refused:?}"
+        );
+    }
 }
 
 /// No page of this process, all code in memory among them, is writable and executable at once.
