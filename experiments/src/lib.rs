@@ -4,8 +4,8 @@
 //! goes in and comes out are plain lists with an entry for each joint.
 //!
 //! ```
-//! use ulna_study::scenario::{Motion, MotionPath};
 //! use ulna_experiments::{by_table, state_at};
+//! use ulna_study::scenario::{Motion, MotionPath};
 //! use ulna_table::Model;
 //!
 //! let model = Model::load("../arms/planar_2r.toml")?;
@@ -36,11 +36,11 @@ mod own;
 mod scenario;
 mod subject;
 
-pub use by_table::{ByTable, MAX_JOINTS, TooManyJoints, by_table};
+pub use by_table::{ByTable, MAX_JOINTS, by_table, by_table_of};
 pub use own::control::{ControlCycle, FreeTorqueList, Law, Settings};
 pub use own::impact::{JointLoadList, LockImpact};
 pub use own::operation::{Assessed, Found, Locking, Operation, Search};
 pub use own::plan::{Plan, StateList, state_at};
-pub use own::simulation::{Servo, SimulatedImpact, Simulated, SimulatedSample, Span};
+pub use own::simulation::{Servo, Simulated, SimulatedImpact, SimulatedSample, Span};
 pub use scenario::{Cases, Experiments, Failures};
 pub use subject::{Held, Subject, subject};

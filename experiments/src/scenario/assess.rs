@@ -1,8 +1,6 @@
 //! [`Failures`]: every failure of an assessment, and the laws that meet them.
 
-use ulna_study::assess::{
-    AssessedCase, AssessedLaw, Assessment, FailureGrid, GroundTruth, Tuning,
-};
+use ulna_study::assess::{AssessedCase, AssessedLaw, Assessment, FailureGrid, GroundTruth, Tuning};
 use ulna_study::experiment::ExperimentError;
 
 /// [`FailureGrid`] with its laws, whatever the number of joints.

@@ -7,8 +7,8 @@ use crate::tool_path::{StraightLine, ToolPath};
 use ulna::control::trajectory::TrajectoryError;
 use ulna::proof::random::SplitMix64;
 use ulna::{
-    Arm, Joint, JointLimits, JointState, PointToPoint, PositionLimits, Profile, ProfileShape, TaskRows,
-    Trajectory,
+    Arm, Joint, JointLimits, JointState, PointToPoint, PositionLimits, Profile, ProfileShape,
+    TaskRows, Trajectory,
 };
 
 /// A planned motion from rest to rest. Its lists have one entry for each joint of the same arm.
@@ -62,7 +62,10 @@ impl Motion {
             // A list of another length is left as it is, and refused where the motion is planned.
             let mut velocity: Vec<f64> = sound(limits);
             let table = self.max_velocity.iter();
-            velocity.iter_mut().zip(table).for_each(|(own, table)| *own = own.min(*table));
+            velocity
+                .iter_mut()
+                .zip(table)
+                .for_each(|(own, table)| *own = own.min(*table));
             self.max_velocity = velocity;
         }
         if let Some(limits) = acceleration {
