@@ -116,18 +116,11 @@ pub trait Subject: Send + Sync {
     ) -> Result<Simulated, ExperimentError>;
 }
 
-/// `arm`, whose `chain` is the same arm as data, for experiments. Compiled where it is called, as the caller is.
-pub fn subject<const N: usize>(
-    arm: Box<dyn Arm<N> + Send + Sync>,
-    chain: SerialChain<N>,
-) -> Box<dyn Subject> {
-    Box::new(Held { arm, chain })
-}
-
 /// An arm of `N` joints.
-pub struct Held<const N: usize> {
-    arm: Box<dyn Arm<N> + Send + Sync>,
-    chain: SerialChain<N>,
+pub(crate) struct Held<const N: usize> {
+    pub(crate) arm: Box<dyn Arm<N> + Send + Sync>,
+    /// The same as data, which knows where its links are.
+    pub(crate) chain: SerialChain<N>,
 }
 
 impl<const N: usize> Held<N> {

@@ -14,14 +14,11 @@ use anyhow::Context;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
-use ulna::SerialChain;
 use ulna_study::Scenario;
-use ulna_study::experiment::{AnyArm, Campaign};
 use ulna_study::scenario::CampaignSettings;
 
-use crate::arms::{ForArm, GENERATED, with_arm, with_chain_of};
+use crate::arms::{self, GENERATED};
 use crate::figures::{self, HeatMap};
-use crate::joints::ForChain;
 use crate::output::{self, Files, FolderLock};
 use crate::{Verdict, console};
 use file::CampaignFile;
@@ -75,13 +72,17 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         scenario: &scenario,
         arguments,
     };
+    let arm = arms::subject(scenario.arm())?;
+    let cases = arm.campaign(&scenario)?;
     // Held until the figures are there too.
-    let (rows, _lock) = pool.install(|| with_arm(scenario.arm(), work))??;
+    let (rows, _lock) = pool.install(|| {
+        let laws = scenario.campaign().laws();
+        work.all(&|index| Row::of(&cases.case(index), laws))
+    })?;
 
     let laws = scenario.campaign().laws();
     let map = HeatMap::new(&rows, laws, scenario.arm().joints().len());
-    let task = with_chain_of(scenario.arm(), TaskSize)?;
-    let summary = Summary::new(&scenario, &rows, task);
+    let summary = Summary::new(&scenario, &rows, arm.task().len());
     writeln!(out, "{}", summary.console())?;
     let footer = format!(
         "arm {}, scenario {}, campaign of {} cases, seed {}",
@@ -103,35 +104,14 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     Ok(Verdict::Pass)
 }
 
-/// How many components the arm's task has.
-struct TaskSize;
-
-impl ForChain for TaskSize {
-    type Output = usize;
-
-    fn run<const N: usize>(self, chain: &SerialChain<N>) -> usize {
-        chain.task.iter().count()
-    }
-}
-
 /// All rows of the campaign, found in the file or made, and the folder that they are in.
 struct Work<'s> {
     scenario: &'s Scenario,
     arguments: &'s Arguments,
 }
 
-impl ForArm for Work<'_> {
-    type Output = anyhow::Result<(Vec<Row>, FolderLock)>;
-
-    fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
-        let campaign = Campaign::new(arm, self.scenario)?;
-        let laws = self.scenario.campaign().laws();
-        self.all(&|index| Row::of(&campaign.case(index), laws))
-    }
-}
-
 impl Work<'_> {
-    /// All rows, by `make`: apart from the campaign, so that this is not compiled for each number of joints.
+    /// All rows, by `make`.
     fn all(&self, make: &(dyn Fn(u64) -> Row + Sync)) -> anyhow::Result<(Vec<Row>, FolderLock)> {
         /// So many cases are made before they are written.
         const CHUNK: u64 = 500;
