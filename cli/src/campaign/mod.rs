@@ -15,14 +15,13 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
-use ulna::SerialChain;
+use ulna_experiments::Subject;
 use ulna_study::Scenario;
-use ulna_study::experiment::{AnyArm, Campaign, Shard};
+use ulna_study::experiment::Shard;
 use ulna_study::scenario::CampaignSettings;
 
-use crate::arms::{ForArm, GENERATED, with_arm, with_chain_of};
+use crate::arms::{self, GENERATED};
 use crate::figures::{self, HeatMap};
-use crate::joints::ForChain;
 use crate::output::{self, Files};
 use crate::{Verdict, console};
 use make::{Make, make_part, seconds_a_case};
@@ -94,9 +93,10 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         bail!("{shards} shards of {cases} cases: there may be as many shards as cases");
     }
     output::check_folder(&arguments.output)?;
+    let arm = arms::subject(scenario.arm())?;
     if arguments.slurm {
         let range = 0..cases;
-        let seconds = with_cases(&scenario, |make| Ok(seconds_a_case(&range, make)))?;
+        let seconds = with_cases(&*arm, &scenario, |make| Ok(seconds_a_case(&range, make)))?;
         let script = slurm::Script::new(&scenario, arguments, seconds)?;
         script
             .warnings()
@@ -120,7 +120,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     let keep = arguments.shard.is_none();
     let work = |make: Make<'_>| make_part(&part, &scenario, keep, make);
     // Held until the figures are there too.
-    let (rows, _lock) = pool.install(|| with_cases(&scenario, work))?;
+    let (rows, _lock) = pool.install(|| with_cases(&*arm, &scenario, work))?;
     if arguments.shard.is_some() {
         for end in ["csv", "json"] {
             console::note(&format!("wrote {}", part.file(end).display()));
@@ -131,8 +131,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     let folder = &arguments.output;
     let laws = scenario.campaign().laws();
     let map = HeatMap::new(&rows, laws, scenario.arm().joints().len());
-    let task = with_chain_of(scenario.arm(), TaskSize)?;
-    let summary = Summary::new(&scenario, &rows, task);
+    let summary = Summary::new(&scenario, &rows, arm.task().len());
     writeln!(out, "{}", summary.console())?;
     let footer = format!(
         "arm {}, scenario {}, campaign of {} cases, seed {}",
@@ -154,36 +153,13 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     Ok(Verdict::Pass)
 }
 
-/// How many components the arm's task has.
-struct TaskSize;
-
-impl ForChain for TaskSize {
-    type Output = usize;
-
-    fn run<const N: usize>(self, chain: &SerialChain<N>) -> usize {
-        chain.task.iter().count()
-    }
-}
-
 /// Does `work` with what makes the scenario's cases.
 fn with_cases<T>(
+    arm: &dyn Subject,
     scenario: &Scenario,
-    work: impl FnOnce(Make<'_>) -> anyhow::Result<T> + Send,
+    work: impl FnOnce(Make<'_>) -> anyhow::Result<T>,
 ) -> anyhow::Result<T> {
-    with_arm(scenario.arm(), Work { scenario, work })?
-}
-
-struct Work<'s, F> {
-    scenario: &'s Scenario,
-    work: F,
-}
-
-impl<T, F: FnOnce(Make<'_>) -> anyhow::Result<T>> ForArm for Work<'_, F> {
-    type Output = anyhow::Result<T>;
-
-    fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
-        let campaign = Campaign::new(arm, self.scenario)?;
-        let laws = self.scenario.campaign().laws();
-        (self.work)(&|index| Row::of(&campaign.case(index), laws))
-    }
+    let cases = arm.campaign(scenario)?;
+    let laws = scenario.campaign().laws();
+    work(&|index| Row::of(&cases.case(index), laws))
 }
