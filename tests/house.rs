@@ -14,6 +14,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("ulna-codegen", &["ulna", "ulna-table"]),
     ("ulna-macros", &["ulna-codegen", "ulna-table"]),
     ("ulna-generated", &["ulna", "ulna-codegen"]),
+    ("ulna-jit", &["ulna", "ulna-codegen", "ulna-table"]),
     ("ulna-study", &["ulna", "ulna-table"]),
     ("ulna-verify", &["ulna", "ulna-codegen", "ulna-table"]),
     (

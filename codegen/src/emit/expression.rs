@@ -297,6 +297,11 @@ impl<'p> Writer<'p> {
     }
 }
 
+/// Which summand of each step is fused with it in the code that is emitted. Its product is then no operation of its own.
+pub fn fused_summands(program: &Program) -> Vec<Option<Summand>> {
+    fused(program, &inlined(program))
+}
+
 /// Whether a step is no more than the negative of something that has a name, and so needs none.
 fn is_plain(program: &Program, names: &[Option<Ident>], step: usize) -> bool {
     let Step { op, a, .. } = program.steps[step];

@@ -19,6 +19,9 @@ use quote::{format_ident, quote};
 use ulna::{Method, MethodSet};
 use ulna_table::Model;
 
+pub use expression::fused_summands;
+pub use latency::Summand;
+
 use crate::accuracy::{ALLOWANCE, Conditioned, LEAST_VOLUME, rounded_up};
 use crate::cost::Counts;
 use crate::op::Op;

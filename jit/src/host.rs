@@ -1,0 +1,53 @@
+//! The machine that the program runs on, as the code generator sees it.
+
+use cranelift_codegen::isa::OwnedTargetIsa;
+use cranelift_codegen::settings::{self, Configurable, Flags};
+use ulna::Instructions;
+
+use crate::Error;
+
+/// What code is made for.
+pub(crate) struct Host {
+    pub(crate) isa: OwnedTargetIsa,
+    /// Whether multiply-adds are fused: where generated code would fuse them, so that results are the same to the bit.
+    pub(crate) fuses: bool,
+}
+
+/// Settings of the code generator, each of which differs from what it does by itself.
+const SETTINGS: &[(&str, &str)] = &[
+    // Programs come without common subexpressions, dead code and foldable constants, in an order that is meant.
+    ("opt_level", "none"),
+    // Nothing unwinds through straight lines of arithmetic.
+    ("unwind_info", "false"),
+    // A long program's frame may be longer than the page that guards a stack.
+    ("enable_probestack", "true"),
+    ("probestack_strategy", "inline"),
+    (
+        "enable_verifier",
+        if cfg!(debug_assertions) {
+            "true"
+        } else {
+            "false"
+        },
+    ),
+];
+
+impl Host {
+    pub(crate) fn new() -> Result<Self, Error> {
+        let failed = |error: &dyn std::fmt::Display| Error::Host(error.to_string());
+        let mut flags = settings::builder();
+        for (name, value) in SETTINGS {
+            flags.set(name, value).map_err(|error| failed(&error))?;
+        }
+        let isa = cranelift_native::builder().map_err(|error| failed(&error))?;
+        let isa = isa
+            .finish(Flags::new(flags))
+            .map_err(|error| failed(&error))?;
+        let fuses = if cfg!(target_arch = "x86_64") {
+            Instructions::in_use() >= Instructions::Avx2
+        } else {
+            cfg!(target_arch = "aarch64")
+        };
+        Ok(Self { isa, fuses })
+    }
+}
