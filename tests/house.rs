@@ -29,6 +29,17 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ulna-verify",
         ],
     ),
+    (
+        "ulna-python",
+        &[
+            "ulna",
+            "ulna-codegen",
+            "ulna-jit",
+            "ulna-table",
+            "ulna-urdf",
+            "ulna-verify",
+        ],
+    ),
 ];
 
 /// What cargo says of the packages of the workspace.

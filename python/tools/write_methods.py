@@ -42,6 +42,7 @@ LINK = re.compile(r"\[([^\]]+)\]\((?:crate|Self)::[^)]*\)")
 def plain(line: str) -> str:
     """A line of Rust's docs for Python's: without links, ``code`` in double ticks."""
     line = LINK.sub(r"\1", line.removeprefix(" "))
+    line = re.sub(r"\[`crate::([^`]+)`\]", r"`\1` of the Rust crate `ulna`", line)
     line = re.sub(r"\[(`[^`]+`)\]", r"\1", line)
     return re.sub(r"`([^`]+)`", r"``\1``", line)
 

@@ -424,7 +424,8 @@ class Methods:
     ) -> tuple[Any, Array]:
         """w_D and its gradient ∇w_D (Eq. 22–27).
 
-        Where w_D is 0, Eq. 23 has no value; the gradient returned there is the zero vector. ``crate::arm::singular`` says where that is.
+        Where w_D is 0, Eq. 23 has no value; the gradient returned there is the zero vector. ``arm::singular`` of the Rust crate ``ulna``
+        says where that is.
 
         Args:
             q: joint coordinates, rad (prismatic: m), ``(..., n)``.

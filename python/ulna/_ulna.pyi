@@ -4,6 +4,21 @@ import os
 from collections.abc import Sequence
 from typing import Any, final
 
+__all__ = [
+    "Arm",
+    "DescriptionError",
+    "Error",
+    "Finding",
+    "TableError",
+    "TableWarning",
+    "import_description",
+    "methods",
+    "read_table",
+    "restore",
+    "set_threads",
+    "threads",
+]
+
 class Error(ValueError):
     """What is wrong with a text that was given to ulna."""
 
