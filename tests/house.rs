@@ -18,10 +18,15 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("ulna-study", &["ulna", "ulna-table"]),
     ("ulna-verify", &["ulna", "ulna-codegen", "ulna-table"]),
     (
+        "ulna-experiments",
+        &["ulna", "ulna-jit", "ulna-study", "ulna-table"],
+    ),
+    (
         "ulna-cli",
         &[
             "ulna",
             "ulna-codegen",
+            "ulna-experiments",
             "ulna-generated",
             "ulna-study",
             "ulna-table",
