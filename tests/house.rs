@@ -39,7 +39,9 @@ const ARROWS: &[(&str, &[&str])] = &[
         &[
             "ulna",
             "ulna-codegen",
+            "ulna-experiments",
             "ulna-jit",
+            "ulna-study",
             "ulna-table",
             "ulna-urdf",
             "ulna-verify",

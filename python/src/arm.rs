@@ -7,10 +7,12 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use ulna::{JointKind, Method, Payload, PayloadError, Placement, TaskRow};
 use ulna_codegen::Generator;
+use ulna_experiments::{Subject, by_table};
 use ulna_jit::AnyJit;
 use ulna_table::Model;
 
 use crate::arguments::Arguments;
+use crate::errors::ExperimentError;
 use crate::run::Work;
 use crate::{reports, results, threads};
 
@@ -24,6 +26,8 @@ pub(crate) struct Arm {
     payload: Option<Payload>,
     /// Made when a method is called for the first time.
     backend: OnceLock<AnyJit>,
+    /// Made for the first experiment.
+    subject: OnceLock<Arc<dyn Subject>>,
 }
 
 impl Arm {
@@ -35,6 +39,7 @@ impl Arm {
             notes,
             payload: None,
             backend: OnceLock::new(),
+            subject: OnceLock::new(),
         }
     }
 
@@ -55,6 +60,27 @@ impl Arm {
             .map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         // Another thread may have been as quick; what it has made is the same.
         Ok(self.backend.get_or_init(|| compiled))
+    }
+
+    /// The arm for experiments.
+    ///
+    /// # Errors
+    /// More joints than experiments are compiled for; or a payload, which none of them knows.
+    pub(crate) fn subject(&self, py: Python<'_>) -> PyResult<Arc<dyn Subject>> {
+        if let Some(subject) = self.subject.get() {
+            return Ok(Arc::clone(subject));
+        }
+        if self.payload.is_some() {
+            return Err(ExperimentError::new_err(format!(
+                "experiments are made with `{}` as its table has it, without a payload at run time: write the body into its last link",
+                self.name()
+            )));
+        }
+        let made = py
+            .detach(|| by_table(&self.model))
+            .map_err(|error| ExperimentError::new_err(error.to_string()))?;
+        let subject = Arc::from(made.subject);
+        Ok(Arc::clone(self.subject.get_or_init(|| subject)))
     }
 }
 
@@ -162,6 +188,7 @@ impl Arm {
             source: self.source.clone(),
             notes: self.notes.clone(),
             backend: carrying.into(),
+            subject: OnceLock::new(),
             payload: Some(payload),
         })
     }

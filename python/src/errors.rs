@@ -29,6 +29,18 @@ create_exception!(
 );
 create_exception!(
     ulna,
+    ScenarioError,
+    Error,
+    "A scenario is refused: every error in it and in the table that it names, each with its place and the remedy."
+);
+create_exception!(
+    ulna,
+    ExperimentError,
+    PyValueError,
+    "An experiment cannot be made: the motion cannot be executed, nothing keeps the limits, or a number makes no experiment."
+);
+create_exception!(
+    ulna,
     TableWarning,
     PyUserWarning,
     "Something in a table or a description is legal and rarely meant; the text says how the table switches it off."

@@ -30,32 +30,40 @@ pub(crate) fn read_table(py: Python<'_>, path: PathBuf, text: Option<&str>) -> P
     warned(py, Arm::new(model, text, source, Vec::new()))
 }
 
-/// The arm of the robot description at `path`, or of the description `text`, which messages call `path`.
-#[pyfunction]
-#[expect(
-    clippy::too_many_arguments,
-    reason = "the options of `ulna import`, from Python's own keywords"
-)]
-pub(crate) fn import_description(
-    py: Python<'_>,
-    path: PathBuf,
-    text: Option<&str>,
+/// The options of `ulna import`.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Options {
     base: Option<String>,
     tip: Option<String>,
     drop: Vec<String>,
     accept_inertia: Vec<String>,
     parallel: Vec<String>,
     name: Option<String>,
+}
+
+impl Options {
+    fn import(self) -> Import {
+        let import = Import::new();
+        let import = self.base.into_iter().fold(import, Import::base);
+        let import = self.tip.into_iter().fold(import, Import::tip);
+        let import = self.name.into_iter().fold(import, Import::name);
+        let import = self.drop.into_iter().fold(import, Import::drop);
+        let inertias = self.accept_inertia.into_iter();
+        let import = inertias.fold(import, Import::accept_inertia);
+        self.parallel.into_iter().fold(import, Import::parallel)
+    }
+}
+
+/// The arm of the robot description at `path`, or of the description `text`, which messages call `path`.
+#[pyfunction]
+pub(crate) fn import_description(
+    py: Python<'_>,
+    path: PathBuf,
+    text: Option<&str>,
+    options: Options,
 ) -> PyResult<Arm> {
-    let import = Import::new();
-    let import = base.into_iter().fold(import, Import::base);
-    let import = tip.into_iter().fold(import, Import::tip);
-    let import = name.into_iter().fold(import, Import::name);
-    let import = drop.into_iter().fold(import, Import::drop);
-    let import = accept_inertia
-        .into_iter()
-        .fold(import, Import::accept_inertia);
-    let import = parallel.into_iter().fold(import, Import::parallel);
+    let import = options.import();
     let source = path.display().to_string();
     let called = source.clone();
     let read = move || -> Result<Imported, Diagnostics> {

@@ -7,9 +7,9 @@ use pyo3::{PyErr, PyResult};
 use rayon::prelude::*;
 use ulna::Method;
 
-use ulna_jit::{AnyJit, CallError};
 use crate::parts::{Kind, POSE, Part, parts};
 use crate::threads::pool;
+use ulna_jit::{AnyJit, CallError};
 
 /// States that are computed and laid out together: results that stay in the nearest cache meanwhile, and enough of them that handing
 /// a block to a thread costs nothing beside it.
@@ -75,7 +75,7 @@ impl Work<'_> {
             let mut blocks = blocks.into_iter();
             return blocks
                 .try_for_each(|block| self.run_block(&mut scratch, block))
-                .map_err(refused);
+                .map_err(|error| refused(&error));
         }
         pool(threads)?.install(|| {
             let scratch = || self.scratch(size);
@@ -83,7 +83,7 @@ impl Work<'_> {
             blocks
                 .map_init(scratch, |scratch, block| self.run_block(scratch, block))
                 .collect::<Result<(), _>>()
-                .map_err(refused)
+                .map_err(|error| refused(&error))
         })
     }
 
@@ -228,7 +228,6 @@ fn transpose(by_columns: &[f64], rows: usize, by_rows: &mut [f64]) {
 }
 
 /// What no caller can bring about: arguments have been read as the method takes them.
-#[expect(clippy::needless_pass_by_value, reason = "as `map_err` hands it over")]
-fn refused(error: CallError) -> PyErr {
+fn refused(error: &CallError) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
 }

@@ -40,7 +40,7 @@ impl<'py> Entries<'py> {
     }
 }
 
-/// An array of rows.
+/// An array of rows, which are equally long; without any it has no columns either.
 pub(super) fn rows_of<'py, R: AsRef<[f64]>>(
     py: Python<'py>,
     rows: impl ExactSizeIterator<Item = R>,

@@ -32,7 +32,7 @@ pub(crate) fn tables() -> Vec<&'static str> {
 #[pyfunction]
 pub(crate) fn tables_text(name: &str) -> PyResult<&'static str> {
     text(name).ok_or_else(|| {
-        let help = match closest(name, tables().into_iter()) {
+        let help = match closest(name, tables()) {
             Some(meant) => format!("did you mean {meant:?}?"),
             None => format!("there are {}", tables().join(", ")),
         };
@@ -42,15 +42,22 @@ pub(crate) fn tables_text(name: &str) -> PyResult<&'static str> {
 
 pub(super) fn text(name: &str) -> Option<&'static str> {
     let mut tables = TABLES.iter();
-    tables.find(|(known, _)| *known == name).map(|(_, text)| *text)
+    tables
+        .find(|(known, _)| *known == name)
+        .map(|(_, text)| *text)
 }
 
 /// What scenarios may call by name. Their joints stay in memory from the first scenario on, as those do that are compiled in.
 pub(super) fn known() -> &'static [KnownArm] {
     static KNOWN: LazyLock<Vec<KnownArm>> = LazyLock::new(|| {
-        let models = TABLES.iter().filter_map(|(name, text)| Model::parse(text, name).ok().map(|model| (*name, model)));
+        let models = TABLES
+            .iter()
+            .filter_map(|(name, text)| Model::parse(text, name).ok().map(|model| (*name, model)));
         let arms = models.map(|(name, model)| {
-            let names = model.joint_names().iter().map(|name| &*String::leak(name.clone()));
+            let names = model
+                .joint_names()
+                .iter()
+                .map(|name| &*String::leak(name.clone()));
             KnownArm {
                 name,
                 joints: Vec::leak(model.joints().to_vec()),

@@ -1,7 +1,6 @@
 //! [`Law`]: a compensation; and what is asked of one state after the other: the impact of a lock, a cycle of the controller.
 
 use numpy::PyArray1;
-use numpy::prelude::*;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use ulna::Method;
@@ -43,7 +42,8 @@ impl Law {
     /// U = P z + J' f: a pair (z, f) as long as no joint is locked, N m (n,) and N, N m (6,), and another one from then on.
     #[staticmethod]
     fn optimal(before: Free, after: Free) -> Self {
-        let [before, after] = [before, after].map(|(torque, wrench)| FreeTorqueList { torque, wrench });
+        let [before, after] =
+            [before, after].map(|(torque, wrench)| FreeTorqueList { torque, wrench });
         Self(ulna_experiments::Law::Optimal { before, after })
     }
 
@@ -118,15 +118,26 @@ fn shaped<'py>(
     PyArray1::from_vec(py, numbers).call_method1("reshape", (shape,))
 }
 
+/// Joints that lock, and what that takes from the tool's wrench.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Lock {
+    joints: Vec<usize>,
+    wrench_step: [f64; 6],
+}
+
 /// The impact torque of a lock, the forces and the moments of the structure.
 #[pyfunction]
 pub(crate) fn lock_impact<'py>(
     py: Python<'py>,
     arm: &Arm,
     given: &Bound<'py, PyTuple>,
-    joints: Vec<usize>,
-    wrench_step: [f64; 6],
+    options: Lock,
 ) -> PyResult<[Bound<'py, PyAny>; 3]> {
+    let Lock {
+        joints,
+        wrench_step,
+    } = options;
     let n = arm.model().joints().len();
     let arguments = Arguments::read(Method::LockImpacts, n, given)?;
     let states = states(&arguments, n)?;
@@ -135,7 +146,7 @@ pub(crate) fn lock_impact<'py>(
         let impact = |state| subject.lock_impact(state, &joints, &wrench_step);
         states.iter().map(impact).collect::<Result<Vec<_>, _>>()
     });
-    let impacts = impacts.map_err(impossible)?;
+    let impacts = impacts.map_err(|error| impossible(&error))?;
     let of = |numbers: fn(&ulna_experiments::LockImpact) -> Vec<f64>| {
         impacts.iter().flat_map(numbers).collect()
     };
@@ -149,42 +160,60 @@ pub(crate) fn lock_impact<'py>(
     ])
 }
 
+/// What a cycle of the controller keeps to.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Cycle {
+    wrench: [f64; 6],
+    locked: Vec<usize>,
+    rated_torque: Option<Vec<f64>>,
+    projector: String,
+}
+
 /// A cycle of the controller for each state.
 #[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "Python's own keywords")]
 pub(crate) fn control_cycle<'py>(
     py: Python<'py>,
     arm: &Arm,
     given: &Bound<'py, PyTuple>,
     law: &Law,
-    wrench: [f64; 6],
-    locked: Vec<usize>,
-    rated_torque: Option<Vec<f64>>,
-    projector: &str,
+    options: Cycle,
 ) -> PyResult<Bound<'py, PyDict>> {
     let n = arm.model().joints().len();
     let arguments = Arguments::read(Method::LockImpacts, n, given)?;
     let states = states(&arguments, n)?;
     let subject = arm.subject(py)?;
+    let Cycle {
+        wrench,
+        locked,
+        rated_torque,
+        projector,
+    } = options;
     let settings = Settings {
         rated_torque,
-        projector: words::projector(projector)?,
+        projector: words::projector(&projector)?,
     };
     let cycles = py.detach(|| {
         let cycle = |state| subject.cycle(&law.0, &settings, state, &wrench, &locked);
         states.iter().map(cycle).collect::<Result<Vec<_>, _>>()
     });
-    let cycles = cycles.map_err(impossible)?;
+    let cycles = cycles.map_err(|error| impossible(&error))?;
     let of = |numbers: fn(&ulna_experiments::ControlCycle) -> &[f64]| {
         cycles.iter().flat_map(numbers).copied().collect()
     };
     let array = |shape: &[usize], numbers| shaped(py, &arguments, shape, numbers);
-    let statuses: Vec<&str> = cycles.iter().map(|cycle| words::status(cycle.status)).collect();
+    let statuses: Vec<&str> = cycles
+        .iter()
+        .map(|cycle| words::status(cycle.status))
+        .collect();
     let conditioning = cycles.iter().map(|cycle| cycle.conditioning).collect();
     let entries = Entries::new(py)
         .with("torque", array(&[n], of(|cycle| &cycle.torque))?)?
         .with("planned", array(&[n], of(|cycle| &cycle.planned))?)?
-        .with("compensation", array(&[n], of(|cycle| &cycle.compensation))?)?
+        .with(
+            "compensation",
+            array(&[n], of(|cycle| &cycle.compensation))?,
+        )?
         .with("force_error", array(&[6], of(|cycle| &cycle.force_error))?)?
         .with("margins", array(&[n], of(|cycle| &cycle.margins))?)?
         .with("conditioning", array(&[], conditioning)?)?;

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use numpy::PyArray1;
-use numpy::prelude::*;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use ulna_experiments::{Assessed, Found, Locking, Search, Servo, Simulated, Span, Subject};
@@ -32,7 +31,7 @@ impl Operation {
     ) -> PyResult<Self> {
         let operation = py
             .detach(|| subject.operation(&**plan, &locking))
-            .map_err(impossible)?;
+            .map_err(|error| impossible(&error))?;
         Ok(Self {
             subject: Arc::clone(subject),
             plan: Arc::clone(plan),
@@ -95,7 +94,7 @@ impl Operation {
             seconds,
         } = py
             .detach(|| self.operation.search(&search))
-            .map_err(impossible)?;
+            .map_err(|error| impossible(&error))?;
         let entries = Entries::new(py).with("law", Py::new(py, Law(law))?)?;
         let entries = in_entries(entries, &assessed)?
             .with("status", words::solved(status))?
@@ -109,49 +108,57 @@ impl Operation {
     fn assess<'py>(&self, py: Python<'py>, law: &Law) -> PyResult<Bound<'py, PyDict>> {
         let assessed = py
             .detach(|| self.operation.assess(&law.0))
-            .map_err(impossible)?;
+            .map_err(|error| impossible(&error))?;
         Ok(in_entries(Entries::new(py), &assessed)?.done())
     }
 
     /// What the arm really does.
-    #[expect(clippy::too_many_arguments, reason = "Python's own keywords")]
-    fn simulate<'py>(
-        &self,
-        py: Python<'py>,
-        law: &Law,
-        start: f64,
-        end: f64,
-        gain: f64,
-        cycle: Option<f64>,
-        brake_time: f64,
-        brake_profile: &str,
-        detection: f64,
-        reflected_inertia: Option<Vec<f64>>,
-        tolerance: f64,
-        sample_period: f64,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let servo = Servo {
-            gain,
-            cycle,
-            brake_time,
-            brake_profile: words::brake(brake_profile)?,
-            detection,
-            reflected_inertia,
-        };
-        let span = Span {
-            start,
-            end,
-            resolution: Resolution {
-                tolerance,
-                sample_period,
-                ..Resolution::default()
-            },
-        };
+    fn simulate<'py>(&self, py: Python<'py>, law: &Law, run: Run) -> PyResult<Bound<'py, PyDict>> {
+        let (servo, span) = run.servo_and_span()?;
         let simulated = py.detach(|| {
             self.subject
                 .simulate(&*self.plan, &self.locking, &law.0, &servo, &span)
         });
-        run(py, &simulated.map_err(impossible)?)
+        outcome(py, &simulated.map_err(|error| impossible(&error))?)
+    }
+}
+
+/// How a lock is simulated.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Run {
+    start: f64,
+    end: f64,
+    gain: f64,
+    cycle: Option<f64>,
+    brake_time: f64,
+    brake_profile: String,
+    detection: f64,
+    reflected_inertia: Option<Vec<f64>>,
+    tolerance: f64,
+    sample_period: f64,
+}
+
+impl Run {
+    fn servo_and_span(self) -> PyResult<(Servo, Span)> {
+        let servo = Servo {
+            gain: self.gain,
+            cycle: self.cycle,
+            brake_time: self.brake_time,
+            brake_profile: words::brake(&self.brake_profile)?,
+            detection: self.detection,
+            reflected_inertia: self.reflected_inertia,
+        };
+        let span = Span {
+            start: self.start,
+            end: self.end,
+            resolution: Resolution {
+                tolerance: self.tolerance,
+                sample_period: self.sample_period,
+                ..Resolution::default()
+            },
+        };
+        Ok((servo, span))
     }
 }
 
@@ -167,7 +174,7 @@ fn in_entries<'py>(entries: Entries<'py>, assessed: &Assessed) -> PyResult<Entri
         .with("least_margin", assessed.least_margin)
 }
 
-fn run<'py>(py: Python<'py>, simulated: &Simulated) -> PyResult<Bound<'py, PyDict>> {
+fn outcome<'py>(py: Python<'py>, simulated: &Simulated) -> PyResult<Bound<'py, PyDict>> {
     let samples = simulated.samples.iter();
     let time: Vec<f64> = samples.clone().map(|sample| sample.time).collect();
     let impact = simulated.impact.as_ref().map(|impact| {
@@ -185,7 +192,10 @@ fn run<'py>(py: Python<'py>, simulated: &Simulated) -> PyResult<Bound<'py, PyDic
         .rows("qd", samples.clone().map(|sample| &sample.state.qd))?
         .rows("qdd", samples.clone().map(|sample| &sample.state.qdd))?
         .rows("planned_q", samples.clone().map(|sample| &sample.planned.q))?
-        .rows("planned_qd", samples.clone().map(|sample| &sample.planned.qd))?
+        .rows(
+            "planned_qd",
+            samples.clone().map(|sample| &sample.planned.qd),
+        )?
         .rows("motor", samples.clone().map(|sample| &sample.motor))?
         .rows("brake", samples.clone().map(|sample| &sample.brake))?
         .rows("joint_torque", samples.map(|sample| &sample.joint_torque))?

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use numpy::PyArray2;
-use numpy::prelude::*;
 use pyo3::prelude::*;
 use ulna::Profile;
 use ulna::nalgebra::Vector6;
@@ -21,34 +20,71 @@ pub(crate) struct Plan {
     pub(super) plan: Arc<dyn ulna_experiments::Plan>,
 }
 
-/// A motion of `arm` from rest to rest.
-#[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "Python's own keywords")]
-pub(crate) fn plan(
-    py: Python<'_>,
-    arm: &Arm,
+/// A motion from rest to rest: of the joints to `goal`, or of the tool by `displacement`.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Asked {
     start: Vec<f64>,
     goal: Option<Vec<f64>>,
-    displacement: Option<[f64; 6]>,
+    displacement: [f64; 6],
     duration: f64,
     blend: f64,
-    profile: &str,
+    profile: String,
+    jerk_time: f64,
     max_acceleration: Option<Vec<f64>>,
-) -> PyResult<Plan> {
-    let path = match (goal, displacement) {
-        (Some(goal), _) => MotionPath::Joint(goal),
-        (None, displacement) => MotionPath::Tool(Vector6::from(displacement.unwrap_or_default())),
+}
+
+/// The motion for `arm`.
+#[pyfunction]
+pub(crate) fn plan_motion(py: Python<'_>, arm: &Arm, asked: Asked) -> PyResult<Plan> {
+    let path = match asked.goal {
+        Some(goal) => MotionPath::Joint(goal),
+        None => MotionPath::Tool(Vector6::from(asked.displacement)),
     };
-    let shape = words::shape(profile)?;
-    let profile = Profile::new(duration, blend, shape).map_err(impossible)?;
-    let motion = Motion::new(arm.model().joints(), start, path, profile);
-    let motion = motion.within(None, max_acceleration.as_deref(), None);
+    let shape = words::shape(&asked.profile, asked.jerk_time)?;
+    let profile =
+        Profile::new(asked.duration, asked.blend, shape).map_err(|error| impossible(&error))?;
+    let motion = Motion::new(arm.model().joints(), asked.start, path, profile);
+    let motion = motion.within(None, asked.max_acceleration.as_deref(), None);
     let subject = arm.subject(py)?;
-    let planned = py.detach(|| subject.plan(&motion)).map_err(impossible)?;
+    let planned = py.detach(|| subject.plan(&motion));
     Ok(Plan {
         subject,
-        plan: planned.into(),
+        plan: planned.map_err(|error| impossible(&error))?.into(),
     })
+}
+
+/// A lock in a motion, and what is kept to.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct Lock {
+    joints: Vec<usize>,
+    time: f64,
+    force: [Vec<f64>; 6],
+    lock_step: [f64; 6],
+    rated_torque: Option<Vec<f64>>,
+    projector: String,
+    sample_period: f64,
+    step_time: f64,
+    effort: Option<f64>,
+}
+
+impl Lock {
+    fn locking(self) -> PyResult<Locking> {
+        let force = ToolForce {
+            coefficients: self.force,
+            lock_step: Vector6::from(self.lock_step),
+        };
+        let usual = Locking::new(&self.joints, self.time, force);
+        Ok(Locking {
+            rated_torque: self.rated_torque,
+            projector: words::projector(&self.projector)?,
+            sample_period: self.sample_period,
+            step_time: self.step_time,
+            effort: self.effort.unwrap_or(usual.effort),
+            ..usual
+        })
+    }
 }
 
 #[pymethods]
@@ -69,11 +105,8 @@ impl Plan {
         py: Python<'py>,
         times: Vec<f64>,
     ) -> PyResult<[Bound<'py, PyArray2<f64>>; 3]> {
-        let states: Vec<_> = times.iter().map(|time| state_at(&*self.plan, *time)).collect();
-        let empty = || Ok(PyArray2::zeros(py, [0, self.plan.joints()], false));
-        if states.is_empty() {
-            return Ok([empty()?, empty()?, empty()?]);
-        }
+        let states = times.into_iter().map(|time| state_at(&*self.plan, time));
+        let states: Vec<_> = states.collect();
         Ok([
             rows_of(py, states.iter().map(|state| &state.q))?,
             rows_of(py, states.iter().map(|state| &state.qd))?,
@@ -82,33 +115,7 @@ impl Plan {
     }
 
     /// The motion with a lock in it.
-    #[expect(clippy::too_many_arguments, reason = "Python's own keywords")]
-    fn lock(
-        &self,
-        py: Python<'_>,
-        joints: Vec<usize>,
-        time: f64,
-        force: [Vec<f64>; 6],
-        lock_step: [f64; 6],
-        rated_torque: Option<Vec<f64>>,
-        projector: &str,
-        sample_period: f64,
-        step_time: f64,
-        effort: Option<f64>,
-    ) -> PyResult<Operation> {
-        let force = ToolForce {
-            coefficients: force,
-            lock_step: Vector6::from(lock_step),
-        };
-        let usual = Locking::new(&joints, time, force);
-        let locking = Locking {
-            rated_torque,
-            projector: words::projector(projector)?,
-            sample_period,
-            step_time,
-            effort: effort.unwrap_or(usual.effort),
-            ..usual
-        };
-        Operation::new(py, &self.subject, &self.plan, locking)
+    fn lock(&self, py: Python<'_>, lock: Lock) -> PyResult<Operation> {
+        Operation::new(py, &self.subject, &self.plan, lock.locking()?)
     }
 }

@@ -139,7 +139,7 @@ impl Scenario {
         let subject = self.subject(py)?;
         let plan = py
             .detach(|| subject.plan(self.scenario.motion()))
-            .map_err(impossible)?;
+            .map_err(|error| impossible(&error))?;
         Ok(Plan {
             subject,
             plan: plan.into(),
@@ -150,7 +150,11 @@ impl Scenario {
     fn operation(&self, py: Python<'_>, section: &str, time: f64) -> PyResult<Operation> {
         let experiment = self.experiment(section)?;
         let Plan { subject, plan } = self.plan(py)?;
-        let usual = Locking::new(self.scenario.failed_joints(), time, experiment.force().clone());
+        let usual = Locking::new(
+            self.scenario.failed_joints(),
+            time,
+            experiment.force().clone(),
+        );
         let locking = Locking {
             rated_torque: experiment.rated_torque().map(<[f64]>::to_vec),
             projector: self.scenario.servo().projector(),
@@ -171,7 +175,7 @@ impl Scenario {
         let experiment = self.experiment(section)?;
         let subject = self.subject(py)?;
         let study = py.detach(|| subject.experiments(&self.scenario)?.study(experiment, time));
-        studies::study(py, &study.map_err(impossible)?)
+        studies::study(py, &study.map_err(|error| impossible(&error))?)
     }
 
     /// What the arm really does in one experiment at one failure time.
@@ -187,15 +191,11 @@ impl Scenario {
             let experiments = subject.experiments(&self.scenario)?;
             experiments.simulated_lock(experiment, time)
         });
-        studies::simulated_lock(py, &lock.map_err(impossible)?)
+        studies::simulated_lock(py, &lock.map_err(|error| impossible(&error))?)
     }
 
     /// Every law over failures for which it was not tuned.
-    fn assess<'py>(
-        &self,
-        py: Python<'py>,
-        threads: Option<usize>,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    fn assess<'py>(&self, py: Python<'py>, threads: Option<usize>) -> PyResult<Bound<'py, PyDict>> {
         let subject = self.subject(py)?;
         let pool = pool(resolved(threads))?;
         let found = py.detach(|| {
@@ -203,19 +203,21 @@ impl Scenario {
             let (times, gains) = (failures.times().to_vec(), failures.gains());
             let cases = pool.install(|| {
                 let all = (0..failures.count()).into_par_iter();
-                all.map(|failure| failures.cases(failure)).collect::<Result<Vec<_>, _>>()
+                all.map(|failure| failures.cases(failure))
+                    .collect::<Result<Vec<_>, _>>()
             })?;
             let truths = gains.into_iter().map(|gain| {
                 let felt = pool.install(|| {
                     let some = failures.simulated().into_par_iter();
-                    some.map(|failure| failures.felt(failure, gain)).collect::<Result<Vec<_>, _>>()
+                    some.map(|failure| failures.felt(failure, gain))
+                        .collect::<Result<Vec<_>, _>>()
                 })?;
                 Ok(failures.ground_truth(gain, &felt))
             });
             let truths = truths.collect::<Result<Vec<GroundTruth>, Impossible>>()?;
             Ok::<_, Impossible>((times, failures.assessment(cases), truths))
         });
-        let (times, assessment, truths) = found.map_err(impossible)?;
+        let (times, assessment, truths) = found.map_err(|error| impossible(&error))?;
         studies::assessment(py, &self.scenario, &times, &assessment, &truths)
     }
 }

@@ -2,7 +2,9 @@
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use ulna_study::assess::{AssessedCase, Assessment, FeltLaw, GroundTruth, LawAssessment, Statistics};
+use ulna_study::assess::{
+    AssessedCase, Assessment, FeltLaw, GroundTruth, LawAssessment, Statistics,
+};
 use ulna_study::experiment::{Case, SimulatedLock, SimulatedRun, Study};
 
 use super::entries::Entries;
@@ -121,7 +123,9 @@ pub(super) fn assessment<'py>(
         for found in &truth.laws {
             laws.append(felt(py, found)?)?;
         }
-        let entries = Entries::new(py).with("gain", truth.gain)?.with("laws", laws)?;
+        let entries = Entries::new(py)
+            .with("gain", truth.gain)?
+            .with("laws", laws)?;
         ground_truth.append(entries.done())?;
     }
     let entries = Entries::new(py)
@@ -145,7 +149,10 @@ fn law<'py>(py: Python<'py>, law: &LawAssessment) -> PyResult<Bound<'py, PyDict>
         .with("note", &law.note)?
         .with("cases", cases(py, &law.cases)?)?;
     let entries = statistics(entries, &law.singles)?;
-    let pairs = law.pairs.as_ref().map(|pairs| PyResult::Ok(statistics(Entries::new(py), pairs)?.done()));
+    let pairs = law
+        .pairs
+        .as_ref()
+        .map(|pairs| PyResult::Ok(statistics(Entries::new(py), pairs)?.done()));
     Ok(entries.with("pairs", pairs.transpose()?)?.done())
 }
 
@@ -159,7 +166,10 @@ fn cases<'py>(py: Python<'py>, cases: &[AssessedCase]) -> PyResult<Bound<'py, Py
         .list("before", &column(|case| case.before))?
         .list("after", &column(|case| case.after))?
         .list("force_error", &column(|case| case.force_error))?
-        .list("force_error_at_lock", &column(|case| case.force_error_at_lock))?
+        .list(
+            "force_error_at_lock",
+            &column(|case| case.force_error_at_lock),
+        )?
         .list("least_margin", &column(|case| case.least_margin))?
         .list("fastest_change", &column(|case| case.fastest_change))?;
     Ok(entries.done())

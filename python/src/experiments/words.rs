@@ -12,7 +12,10 @@ use ulna_study::simulation::{BrakeProfile, Ending};
 fn chosen<T: Copy>(argument: &str, word: &str, choices: &[(&str, T)]) -> PyResult<T> {
     let found = choices.iter().find(|(name, _)| *name == word);
     found.map(|(_, choice)| *choice).ok_or_else(|| {
-        let names: Vec<String> = choices.iter().map(|(name, _)| format!("{name:?}")).collect();
+        let names: Vec<String> = choices
+            .iter()
+            .map(|(name, _)| format!("{name:?}"))
+            .collect();
         PyValueError::new_err(format!(
             "{argument}: expected {}, found {word:?}",
             names.join(" or ")
@@ -20,11 +23,12 @@ fn chosen<T: Copy>(argument: &str, word: &str, choices: &[(&str, T)]) -> PyResul
     })
 }
 
-pub(super) fn shape(word: &str) -> PyResult<ProfileShape> {
+/// `jerk_time` is that of an S-curve, s.
+pub(super) fn shape(word: &str, jerk_time: f64) -> PyResult<ProfileShape> {
     let choices = [
         ("trapezoid", ProfileShape::Trapezoid),
         ("quintic", ProfileShape::Quintic),
-        ("s_curve", ProfileShape::SCurve),
+        ("s_curve", ProfileShape::SCurve { jerk_time }),
     ];
     chosen("profile", word, &choices)
 }
