@@ -8,16 +8,24 @@
     q = np.random.uniform(-3, 3, (1000, arm.n))
     M = arm.mass_matrix(q, threads=0)         # (1000, n, n), on all cores
 
+    scenario = ulna.Scenario.load("scenario.toml")
+    study = scenario.study("5.2", time=10.0)  # every search for a compensation, with its whole motion
+
 SI units and radians throughout. Twists and wrenches are linear first, ``[v; w]`` and ``[f; n]``, in world axes, at the tool point.
 """
 
 from ._arm import Arm, Limits, Payload
-from ._load import load, parse
+from ._experiments import Operation, Plan
+from ._load import arm, arms, load, parse
 from ._reports import Deviation, Report, Verification
+from ._scenario import Experiment, Scenario
 from ._ulna import (
     DescriptionError,
     Error,
+    ExperimentError,
     Finding,
+    Law,
+    ScenarioError,
     TableError,
     TableWarning,
     set_threads,
@@ -29,13 +37,22 @@ __all__ = [
     "DescriptionError",
     "Deviation",
     "Error",
+    "Experiment",
+    "ExperimentError",
     "Finding",
+    "Law",
     "Limits",
+    "Operation",
     "Payload",
+    "Plan",
     "Report",
+    "Scenario",
+    "ScenarioError",
     "TableError",
     "TableWarning",
     "Verification",
+    "arm",
+    "arms",
     "load",
     "parse",
     "set_threads",

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _ulna
+from ._experiments import Plan
 from ._methods import Array, Methods
+from ._numbers import floats, for_each_joint, wrench_of
 from ._reports import Deviation, Report, Verification
 
 
@@ -154,7 +156,117 @@ class Arm(Methods):
             ValueError: no rigid body is like that, the arm cannot carry it, or its table gives it no payload at run time.
         """
         tensor = np.zeros((3, 3)) if inertia is None else inertia
-        return Arm(self._native.carrying(mass, _floats("com", com, (3,)), _floats("inertia", tensor, (3, 3))))
+        return Arm(self._native.carrying(mass, floats("com", com, (3,)), floats("inertia", tensor, (3, 3))))
+
+    def impact_torque(
+        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, joints: Sequence[int], *, wrench_step: ArrayLike = (0.0, 0.0, 0.0)
+    ) -> Array:
+        """What the motors feel when ``joints`` stop dead, all at once, before minus after (Eq. 12).
+
+        Args:
+            q: joint coordinates, ``(..., n)``, rad (m).
+            qd: their rates, ``(..., n)``.
+            qdd: their accelerations, ``(..., n)``.
+            joints: those that lock, counted from 0.
+            wrench_step: what the lock takes from what the tool exerts, ``(3,)`` N or ``(6,)`` N and N m, in world axes (Eq. 8).
+
+        Returns:
+            N m (N), ``(..., n)``. Of each joint alone :meth:`lock_impacts` is quicker.
+        """
+        return self._lock(q, qd, qdd, joints, wrench_step)[0]
+
+    def structure_loads(
+        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, joints: Sequence[int], *, wrench_step: ArrayLike = (0.0, 0.0, 0.0)
+    ) -> tuple[Array, Array]:
+        """What every link transmits to the next when ``joints`` stop dead, before minus after (Eq. 8-11); arguments as of :meth:`impact_torque`.
+
+        Returns:
+            Forces, N, and moments about the joint's frame's origin, N m, ``(..., n, 3)``, in that frame, whose z is the axis.
+        """
+        _, force, moment = self._lock(q, qd, qdd, joints, wrench_step)
+        return force, moment
+
+    def _lock(
+        self, q: ArrayLike, qd: ArrayLike, qdd: ArrayLike, joints: Sequence[int], wrench_step: ArrayLike
+    ) -> tuple[Array, Array, Array]:
+        lock = {"joints": list(joints), "wrench_step": wrench_of("wrench_step", wrench_step)}
+        torque, force, moment = _ulna.lock_impact(self._native, (q, qd, qdd), lock)
+        return torque, force, moment
+
+    def control_cycle(
+        self,
+        q: ArrayLike,
+        qd: ArrayLike,
+        qdd: ArrayLike,
+        law: _ulna.Law,
+        *,
+        wrench: ArrayLike = (0.0, 0.0, 0.0),
+        locked: Sequence[int] = (),
+        rated_torque: ArrayLike | None = None,
+        projector: str = "static",
+    ) -> dict[str, Any]:
+        """A cycle of the suppression controller at each state: the torques of an arm whose tool is to exert ``wrench``.
+
+        Args:
+            q, qd, qdd: the planned states, ``(..., n)``.
+            law: the compensation.
+            wrench: ``(3,)`` N or ``(6,)`` N and N m, in world axes at the tool point.
+            locked: joints that stand still whatever the state says, counted from 0.
+            rated_torque: N m (N), one number or ``(n,)``; those of the arm's table without it.
+            projector: ``"static"`` or ``"dynamically_consistent"``.
+
+        Returns:
+            ``torque``, ``planned`` (without compensation), ``compensation`` and ``margins``, ``(..., n)``; ``force_error``, ``(..., 6)``;
+            ``conditioning``; ``status``, a word or a list of them.
+        """
+        cycle = {
+            "wrench": wrench_of("wrench", wrench),
+            "locked": list(locked),
+            "rated_torque": for_each_joint("rated_torque", rated_torque, self.n),
+            "projector": projector,
+        }
+        return _ulna.control_cycle(self._native, (q, qd, qdd), law, cycle)
+
+    def plan(
+        self,
+        start: ArrayLike,
+        goal: ArrayLike | None = None,
+        *,
+        displacement: ArrayLike | None = None,
+        duration: float,
+        blend: float,
+        profile: str = "trapezoid",
+        jerk_time: float | None = None,
+        max_acceleration: ArrayLike | None = None,
+    ) -> Plan:
+        """A motion from rest to rest, straight in joint space or of the tool, within the limits of the arm's table.
+
+        Args:
+            start: q, ``(n,)``, rad (m).
+            goal: q where it ends, ``(n,)``; or else
+            displacement: what the tool is moved by, ``(3,)`` m or ``(6,)`` m and rad, a rotation vector, in world axes.
+            duration: s.
+            blend: of speeding up, and again of slowing down, s.
+            profile: ``"trapezoid"``, ``"quintic"`` or ``"s_curve"``.
+            jerk_time: of an S-curve, s; a third of the blend without it.
+            max_acceleration: ``(n,)`` or one number, rad/s^2 (m/s^2).
+
+        Raises:
+            ExperimentError: too fast or too far for a joint, or through a singular pose.
+        """
+        if (goal is None) == (displacement is None):
+            raise TypeError("plan: expected either goal or displacement")
+        asked = {
+            "start": floats("start", start, (self.n,)),
+            "goal": None if goal is None else floats("goal", goal, (self.n,)),
+            "displacement": wrench_of("displacement", (0.0, 0.0, 0.0) if displacement is None else displacement),
+            "duration": duration,
+            "blend": blend,
+            "profile": profile,
+            "jerk_time": blend / 3.0 if jerk_time is None else jerk_time,
+            "max_acceleration": for_each_joint("max_acceleration", max_acceleration, self.n),
+        }
+        return Plan(_ulna.plan_motion(self._native, asked))
 
     def generate(self, language: str = "rust", *, methods: Sequence[str] | None = None) -> str:
         """The arm's code, as ``ulna generate`` writes it.
@@ -191,14 +303,6 @@ class Arm(Methods):
                 for text, passes, states, deviations in reports
             )
         )
-
-
-def _floats(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Any:
-    """Nested lists of numbers, of that shape."""
-    array = np.asarray(value, dtype=float)
-    if array.shape != shape:
-        raise ValueError(f"{name}: expected shape {shape}, found {array.shape}")
-    return array.tolist()
 
 
 def _again(table: str, file: str, notes: tuple[str, ...], payload: Payload | None) -> Arm:

@@ -43,7 +43,7 @@ def load(
     options = _options(path, base, tip, drop, accept_inertia, parallel, name)
     if options is None:
         return Arm(_ulna.read_table(path, None))
-    return Arm(_ulna.import_description(path, None, *options))
+    return Arm(_ulna.import_description(path, None, options))
 
 
 def parse(
@@ -61,7 +61,7 @@ def parse(
     options = _options(source, base, tip, drop, accept_inertia, parallel, name)
     if options is None:
         return Arm(_ulna.read_table(source, text))
-    return Arm(_ulna.import_description(source, text, *options))
+    return Arm(_ulna.import_description(source, text, options))
 
 
 def _options(
@@ -72,15 +72,37 @@ def _options(
     accept_inertia: Sequence[str],
     parallel: Sequence[str],
     name: str | None,
-) -> tuple[Any, ...] | None:
+) -> dict[str, Any] | None:
     """The options of an import; none if the file is a table."""
-    given = {"base": base, "tip": tip, "drop": drop, "accept_inertia": accept_inertia, "parallel": parallel, "name": name}
+    given: dict[str, Any] = {
+        "base": base,
+        "tip": tip,
+        "drop": drop,
+        "accept_inertia": accept_inertia,
+        "parallel": parallel,
+        "name": name,
+    }
     if os.fspath(path).lower().endswith(_DESCRIPTIONS):
         for option in ("drop", "accept_inertia", "parallel"):
             if isinstance(given[option], str):
                 raise TypeError(f"{option}: expected a list of names, found the name {given[option]!r} alone")
-        return base, tip, list(drop), list(accept_inertia), list(parallel), name
+            given[option] = list(given[option])
+        return given
     for option, value in given.items():
         if value:
             raise TypeError(f"{option}: is for robot descriptions (.urdf), and {os.fspath(path)} is a table")
     return None
+
+
+def arms() -> list[str]:
+    """The names of the arms that come with the package; :func:`arm` gives one."""
+    return _ulna.tables()
+
+
+def arm(name: str) -> Arm:
+    """An arm that comes with the package.
+
+    Raises:
+        ValueError: none is called so.
+    """
+    return parse(_ulna.tables_text(name), f"{name}.toml")

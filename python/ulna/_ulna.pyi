@@ -4,18 +4,36 @@ import os
 from collections.abc import Sequence
 from typing import Any, final
 
+import numpy as np
+from numpy.typing import NDArray
+
+_Array = NDArray[np.float64]
+_Free = tuple[Sequence[float], Sequence[float]]
+
 __all__ = [
     "Arm",
     "DescriptionError",
     "Error",
+    "ExperimentError",
     "Finding",
+    "Law",
+    "Operation",
+    "Plan",
+    "Scenario",
+    "ScenarioError",
     "TableError",
     "TableWarning",
+    "control_cycle",
     "import_description",
+    "lock_impact",
     "methods",
+    "plan_motion",
+    "read_scenario",
     "read_table",
     "restore",
     "set_threads",
+    "tables",
+    "tables_text",
     "threads",
 ]
 
@@ -26,6 +44,8 @@ class Error(ValueError):
 
 class TableError(Error): ...
 class DescriptionError(Error): ...
+class ScenarioError(Error): ...
+class ExperimentError(ValueError): ...
 class TableWarning(UserWarning): ...
 
 @final
@@ -87,17 +107,95 @@ class Arm:
         self, samples: int, methods: Sequence[str] | None
     ) -> list[tuple[str, bool, int, list[tuple[str, float, float, bool]]]]: ...
 
+@final
+class Law:
+    """A law of compensation with its parameters."""
+
+    @staticmethod
+    def none() -> Law:
+        """No compensation."""
+
+    @staticmethod
+    def eq16(coefficients: Sequence[float]) -> Law:
+        """Eq. 16 with the diagonal of k_d, one number for each joint."""
+
+    @staticmethod
+    def eq20(coefficients: Sequence[float]) -> Law:
+        """Eq. 20 with the diagonal of k_d, one number for each joint."""
+
+    @staticmethod
+    def optimal(before: _Free, after: _Free) -> Law:
+        """``U = P z + J' f``: a pair ``(z, f)`` as long as no joint is locked, N m ``(n,)`` and N, N m ``(6,)``, and another one from then on."""
+
+    @property
+    def kind(self) -> str:
+        """``"none"``, ``"eq16"``, ``"eq20"`` or ``"optimal"``."""
+
+    @property
+    def coefficients(self) -> _Array | None:
+        """The diagonal of k_d, ``(n,)``; None for laws that have none."""
+
+    @property
+    def free_torques(self) -> list[_Free] | None:
+        """z and f before the lock, and after it; None for laws that have none."""
+
+@final
+class Plan:
+    """The native half of ``ulna.Plan``."""
+
+    @property
+    def duration(self) -> float: ...
+    @property
+    def n(self) -> int: ...
+    def states(self, times: Sequence[float]) -> list[_Array]: ...
+    def lock(self, lock: dict[str, Any]) -> Operation: ...
+
+@final
+class Operation:
+    """The native half of ``ulna.Operation``."""
+
+    @property
+    def step(self) -> _Array: ...
+    @property
+    def joints(self) -> list[int]: ...
+    @property
+    def time(self) -> float: ...
+    def search(self, method: str, min_max: bool, force_error: float, step: float) -> dict[str, Any]: ...
+    def assess(self, law: Law) -> dict[str, Any]: ...
+    def simulate(self, law: Law, run: dict[str, Any]) -> dict[str, Any]: ...
+
+@final
+class Scenario:
+    """The native half of ``ulna.Scenario``."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def arm(self) -> Arm: ...
+    @property
+    def failed_joints(self) -> list[int]: ...
+    @property
+    def failure_times(self) -> list[float]: ...
+    @property
+    def cycle(self) -> float: ...
+    @property
+    def experiments(self) -> list[tuple[str, str, list[list[float]], list[float], list[float] | None]]: ...
+    def plan(self) -> Plan: ...
+    def operation(self, section: str, time: float) -> Operation: ...
+    def study(self, section: str, time: float) -> dict[str, Any]: ...
+    def simulated_lock(self, section: str, time: float) -> dict[str, Any]: ...
+    def assess(self, threads: int | None) -> dict[str, Any]: ...
+
+def lock_impact(arm: Arm, given: tuple[Any, ...], options: dict[str, Any]) -> list[_Array]: ...
+def control_cycle(arm: Arm, given: tuple[Any, ...], law: Law, options: dict[str, Any]) -> dict[str, Any]: ...
+def plan_motion(arm: Arm, asked: dict[str, Any]) -> Plan: ...
+def read_scenario(path: str | os.PathLike[str], text: str | None) -> Scenario: ...
+def tables() -> list[str]: ...
+def tables_text(name: str) -> str: ...
 def read_table(path: str | os.PathLike[str], text: str | None) -> Arm: ...
-def import_description(
-    path: str | os.PathLike[str],
-    text: str | None,
-    base: str | None,
-    tip: str | None,
-    drop: Sequence[str],
-    accept_inertia: Sequence[str],
-    parallel: Sequence[str],
-    name: str | None,
-) -> Arm: ...
+def import_description(path: str | os.PathLike[str], text: str | None, options: dict[str, Any]) -> Arm: ...
 def restore(table: str, source: str, notes: Sequence[str]) -> Arm: ...
 def methods() -> list[tuple[str, list[tuple[str, str]], list[str], list[list[str]]]]: ...
 def set_threads(threads: int) -> None:
