@@ -1,8 +1,8 @@
 //! The native half of the Python package `ulna`.
 //!
 //! What Python sees is in `ulna/`: classes with types and docs, which call what is here. Here arrays are read and made
-//! ([`arguments`], [`results`]), methods run without Python's lock and on many threads ([`run`], [`threads`]), errors become
-//! exceptions with the program's words ([`errors`]), and experiments dictionaries of arrays ([`experiments`]).
+//! (`arguments`, `results`), methods run without Python's lock and on many threads (`run`, `threads`), errors become
+//! exceptions with the program's words (`errors`), and experiments dictionaries of arrays (`experiments`).
 
 mod arguments;
 mod arm;
