@@ -85,13 +85,14 @@ impl Generator {
 
     /// The arm in C: a header and a source file. `source` is the table's path, as for [`generate`](crate::generate).
     ///
-    /// ```
+    /// ```no_run
     /// use ulna_codegen::{COptions, Generator};
-    /// # let table = "name = \"one\"\nconvention = \"modified\"\nangle_unit = \"deg\"\n[task]\nrows = [\"x\"]\n[[joint]]\ntheta = 0.0\nd = 0.0\na = 0.0\nalpha = 0.0\n[joint.link]\nmass = 1.0\ncom = [1.0, 0.0, 0.0]\ninertia = { xx = 0.0, yy = 0.1, zz = 0.1 }\n[tool]\nxyz = [1.0, 0.0, 0.0]\nrpy = [0.0, 0.0, 0.0]\n";
-    /// let model = ulna_table::Model::parse(table, "one.toml")?;
-    /// let c = Generator::new().generate_c(&model, "one.toml", COptions::new());
-    /// assert!(c.header().contains("void one_mass_matrix(const one_real q[1], one_real result[1]);"));
-    /// # Ok::<(), ulna_table::TableErrors>(())
+    /// let table = "arms/ssrms.toml";
+    /// let c = Generator::new().generate_c(&ulna_table::Model::load(table)?, table, COptions::new());
+    /// for (name, text) in c.files() {
+    ///     std::fs::write(name, text)?; // ssrms.h, ssrms.c
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn generate_c(&self, model: &Model, source: &str, options: COptions) -> GeneratedC {
         self.generate_c_watched(model, source, options, &|_| ())

@@ -107,7 +107,8 @@ fn single_precision_is_single_throughout() {
     let options = COptions::new().precision(Precision::Float);
     let c = GeneratedC::of(&model, "table", &compiled, options);
     assert!(c.header().contains("typedef float stanford_arm_real;"));
-    let code = c.source().lines().filter(|line| !line.starts_with(" *"));
+    let is_comment = |line: &str| line.trim_start().starts_with(['*', '/']);
+    let code = c.source().lines().filter(|line| !is_comment(line));
     for line in code {
         for word in line
             .replace("e-", "e")
