@@ -34,6 +34,19 @@ const ARROWS: &[(&str, &[&str])] = &[
             "ulna-verify",
         ],
     ),
+    (
+        "ulna-python",
+        &[
+            "ulna",
+            "ulna-codegen",
+            "ulna-experiments",
+            "ulna-jit",
+            "ulna-study",
+            "ulna-table",
+            "ulna-urdf",
+            "ulna-verify",
+        ],
+    ),
 ];
 
 /// What cargo says of the packages of the workspace.
