@@ -14,14 +14,33 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("ulna-codegen", &["ulna", "ulna-table"]),
     ("ulna-macros", &["ulna-codegen", "ulna-table"]),
     ("ulna-generated", &["ulna", "ulna-codegen"]),
+    ("ulna-jit", &["ulna", "ulna-codegen", "ulna-table"]),
     ("ulna-study", &["ulna", "ulna-table"]),
     ("ulna-verify", &["ulna", "ulna-codegen", "ulna-table"]),
+    (
+        "ulna-experiments",
+        &["ulna", "ulna-jit", "ulna-study", "ulna-table"],
+    ),
     (
         "ulna-cli",
         &[
             "ulna",
             "ulna-codegen",
+            "ulna-experiments",
             "ulna-generated",
+            "ulna-study",
+            "ulna-table",
+            "ulna-urdf",
+            "ulna-verify",
+        ],
+    ),
+    (
+        "ulna-python",
+        &[
+            "ulna",
+            "ulna-codegen",
+            "ulna-experiments",
+            "ulna-jit",
             "ulna-study",
             "ulna-table",
             "ulna-urdf",

@@ -16,7 +16,6 @@ mod figures;
 mod generate;
 mod help;
 mod import;
-mod joints;
 mod man;
 mod methods;
 mod new;
@@ -56,6 +55,7 @@ enum Command {
     Reproduce(reproduce::Arguments),
     Assess(assess::Arguments),
     Campaign(campaign::Arguments),
+    Merge(campaign::merge::Arguments),
     New(new::Arguments),
     Check(check::Arguments),
     Import(import::Arguments),
@@ -83,6 +83,7 @@ impl Command {
             Self::Reproduce(arguments) => reproduce::run(&arguments, out),
             Self::Assess(arguments) => assess::run(&arguments, out),
             Self::Campaign(arguments) => campaign::run(&arguments, out),
+            Self::Merge(arguments) => campaign::merge::run(&arguments),
             Self::New(arguments) => new::run(&arguments),
             Self::Check(arguments) => check::run(&arguments, out),
             Self::Import(arguments) => import::run(&arguments, out),

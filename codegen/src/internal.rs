@@ -2,6 +2,7 @@
 
 pub use crate::accuracy::{Arguments, Scalar};
 pub use crate::differentiate::reverse;
+pub use crate::emit::{Summand, fused_summands};
 pub use crate::formulate::chain::Chain;
 pub use crate::formulate::kinematics::{Twist, jacobian_in_group, jacobian_in_world};
 pub use crate::formulate::mass_matrix::mass_matrix;

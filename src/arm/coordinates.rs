@@ -42,6 +42,12 @@ pub(crate) fn are_plain<const N: usize>(q: &[f64; N]) -> bool {
     largest(q.map(f64::abs)) <= PLAIN_LIMIT
 }
 
+/// Whether kernels may read joint coordinates as they are, for who knows their number at run time.
+#[inline]
+pub fn is_plain(q: &[f64]) -> bool {
+    !q.iter().any(|q| q.abs() > PLAIN_LIMIT)
+}
+
 /// The largest of some numbers, none below 0.
 #[inline(always)]
 fn largest<const K: usize>(numbers: [f64; K]) -> f64 {

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::bounds::{MOMENT_ROUNDING, Share, TRIANGLE_TOLERANCE};
-use super::description::{Link, Placement};
+use super::description::{Joint, Link, Placement};
 use super::parameters::Parameter;
 use crate::{Real, SerialChain};
 
@@ -40,6 +40,11 @@ pub enum PayloadError {
         /// The joint whose link it is, from 1.
         joint: usize,
     },
+    /// The arm was not made for one.
+    #[error(
+        "this arm takes no payload at run time: write `runtime = true` into its table, under `[payload]`"
+    )]
+    NotAtRunTime,
 }
 
 impl Payload {
@@ -157,27 +162,7 @@ impl<const N: usize> SerialChain<N> {
     #[must_use]
     pub fn carrying(&self, payload: &Payload) -> Self {
         let mut chain = *self;
-        let Some(last) = chain.joints.last_mut() else {
-            return chain;
-        };
-        if payload.mass() == 0.0 {
-            return chain;
-        }
-        let (own, other) = (last.link, payload.seen_from(&self.tool));
-        let mass = own.mass + other.mass;
-        let apart = Vector3::from(other.com) - Vector3::from(own.com);
-        let com = Vector3::from(own.com) + apart * (other.mass / mass);
-        // Two bodies about their common centroid: the reduced mass at their distance.
-        let reduced = own.mass * (other.mass / mass);
-        let steiner =
-            (Matrix3::identity() * apart.norm_squared() - apart * apart.transpose()) * reduced;
-        last.link = Link {
-            mass,
-            com: com.into(),
-            inertia: core::array::from_fn(|i| {
-                core::array::from_fn(|j| own.inertia[i][j] + other.inertia[i][j] + steiner[(i, j)])
-            }),
-        };
+        carry(&mut chain.joints, &chain.tool, payload);
         chain
     }
 
@@ -186,11 +171,43 @@ impl<const N: usize> SerialChain<N> {
     /// # Errors
     /// [`PayloadError::TooHeavy`].
     pub fn admit(&self, payload: &Payload) -> Result<(), PayloadError> {
-        let joints = self.carrying(payload).joints;
-        match (0..N).find(|index| !Share::of(&joints, *index).is_enough()) {
-            Some(index) => Err(PayloadError::TooHeavy { joint: index + 1 }),
-            None => Ok(()),
-        }
+        admit(&self.carrying(payload).joints)
+    }
+}
+
+/// [`SerialChain::carrying`], for who knows the number of joints at run time.
+pub fn carry(joints: &mut [Joint], tool: &Placement, payload: &Payload) {
+    let Some(last) = joints.last_mut() else {
+        return;
+    };
+    if payload.mass() == 0.0 {
+        return;
+    }
+    let (own, other) = (last.link, payload.seen_from(tool));
+    let mass = own.mass + other.mass;
+    let apart = Vector3::from(other.com) - Vector3::from(own.com);
+    let com = Vector3::from(own.com) + apart * (other.mass / mass);
+    // Two bodies about their common centroid: the reduced mass at their distance.
+    let reduced = own.mass * (other.mass / mass);
+    let steiner =
+        (Matrix3::identity() * apart.norm_squared() - apart * apart.transpose()) * reduced;
+    last.link = Link {
+        mass,
+        com: com.into(),
+        inertia: core::array::from_fn(|i| {
+            core::array::from_fn(|j| own.inertia[i][j] + other.inertia[i][j] + steiner[(i, j)])
+        }),
+    };
+}
+
+/// [`SerialChain::admit`] of joints that [`carry`] the payload.
+///
+/// # Errors
+/// As there.
+pub fn admit(joints: &[Joint]) -> Result<(), PayloadError> {
+    match (0..joints.len()).find(|index| !Share::of(joints, *index).is_enough()) {
+        Some(index) => Err(PayloadError::TooHeavy { joint: index + 1 }),
+        None => Ok(()),
     }
 }
 

@@ -20,6 +20,9 @@ pub trait Quantity: Copy {
     /// Where the numbers of a part go.
     fn part_mut(&mut self, part: usize) -> &mut [f64];
 
+    /// Hands out where the numbers of every part go, the first part first.
+    fn give_parts<'a>(&'a mut self, take: &mut impl FnMut(&'a mut [f64]));
+
     /// The same with 0 in the parts from `first` on.
     fn zero_from(self, first: usize) -> Self;
 
@@ -50,6 +53,11 @@ impl Quantity for f64 {
     fn part_mut(&mut self, _: usize) -> &mut [f64] {
         slice::from_mut(self)
     }
+
+    #[inline(always)]
+    fn give_parts<'a>(&'a mut self, take: &mut impl FnMut(&'a mut [f64])) {
+        take(self.part_mut(0));
+    }
 }
 
 impl<const R: usize, const C: usize> Quantity for SMatrix<f64, R, C> {
@@ -72,6 +80,11 @@ impl<const R: usize, const C: usize> Quantity for SMatrix<f64, R, C> {
     #[inline(always)]
     fn part_mut(&mut self, _: usize) -> &mut [f64] {
         self.as_mut_slice()
+    }
+
+    #[inline(always)]
+    fn give_parts<'a>(&'a mut self, take: &mut impl FnMut(&'a mut [f64])) {
+        take(self.part_mut(0));
     }
 }
 
@@ -96,6 +109,11 @@ impl<T: Quantity + Pod, const K: usize> Quantity for [T; K] {
     #[inline(always)]
     fn part_mut(&mut self, _: usize) -> &mut [f64] {
         cast_slice_mut(self)
+    }
+
+    #[inline(always)]
+    fn give_parts<'a>(&'a mut self, take: &mut impl FnMut(&'a mut [f64])) {
+        take(self.part_mut(0));
     }
 }
 
@@ -127,6 +145,12 @@ impl Quantity for IsometryMatrix3<f64> {
             0 => self.rotation.matrix_mut_unchecked().as_mut_slice(),
             _ => self.translation.vector.as_mut_slice(),
         }
+    }
+
+    #[inline(always)]
+    fn give_parts<'a>(&'a mut self, take: &mut impl FnMut(&'a mut [f64])) {
+        take(self.rotation.matrix_mut_unchecked().as_mut_slice());
+        take(self.translation.vector.as_mut_slice());
     }
 }
 
@@ -160,6 +184,12 @@ impl<A: Quantity, B: Quantity> Quantity for (A, B) {
         } else {
             self.1.part_mut(part - A::PARTS)
         }
+    }
+
+    #[inline(always)]
+    fn give_parts<'a>(&'a mut self, take: &mut impl FnMut(&'a mut [f64])) {
+        self.0.give_parts(take);
+        self.1.give_parts(take);
     }
 }
 
@@ -201,5 +231,12 @@ impl<A: Quantity, B: Quantity, C: Quantity> Quantity for (A, B, C) {
         } else {
             self.2.part_mut(part - A::PARTS - B::PARTS)
         }
+    }
+
+    #[inline(always)]
+    fn give_parts<'a>(&'a mut self, take: &mut impl FnMut(&'a mut [f64])) {
+        self.0.give_parts(take);
+        self.1.give_parts(take);
+        self.2.give_parts(take);
     }
 }

@@ -496,7 +496,7 @@ fn plan(table: &mut Table, setting: &Setting) -> Result<(), Box<dyn Error>> {
         [0.339, 1.025],
         [setting.at(1, 18.0).step()[3].abs(), late.step()[3].abs()],
     );
-    let locks = lock_mechanics(&Ssrms::CHAIN, &setting.scenario)?;
+    let locks = lock_mechanics(&Ssrms::CHAIN, &Ssrms::CHAIN, &setting.scenario)?;
     let load = |joint: usize, axis: usize| locks[1].loads[joint].moment[axis].abs();
     table.rows(
         "moments about x, y, z at 10 s, joint 3",

@@ -52,7 +52,7 @@ fn short(arm: &str, joints: usize, failed: usize) -> Scenario {
 }
 
 fn mechanics<const N: usize>(chain: &SerialChain<N>, scenario: &Scenario) -> Vec<LockMechanics> {
-    lock_mechanics(chain, scenario).unwrap()
+    lock_mechanics(chain, chain, scenario).unwrap()
 }
 
 /// Along the axes the loads are the torque step that inverse dynamics gives, for revolute and sliding joints.

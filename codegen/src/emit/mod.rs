@@ -7,3 +7,5 @@
 pub(crate) mod c;
 mod plan;
 pub(crate) mod rust;
+
+pub use plan::{Summand, fused_summands};

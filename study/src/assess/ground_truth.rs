@@ -1,6 +1,6 @@
 //! [`GroundTruth`]: what the structure feels of the same failures when the lock is simulated as it is.
 
-use nalgebra::SVector;
+use nalgebra::{SVector, Vector6};
 
 use super::grid::FailureGrid;
 use super::law::{AssessedLaw, Law, Tactic};
@@ -177,13 +177,16 @@ impl<const N: usize> FailureGrid<'_, N> {
         let (brake, servo) = (self.scenario().brake(), self.scenario().servo());
         let failure = *operation.failure();
         let rotors = self.scenario().motors().reflected_inertia();
+        let force = |time| self.experiment().force().at(time);
+        // Behind a pointer, so that runs are compiled once.
+        let wrench: &dyn Fn(f64) -> Vector6<f64> = &force;
         let simulation = Simulation {
             plant: self.arm(),
             controller: Controller::new(self.arm(), compensation)
                 .with_rated_torque(*self.rated_torque())
                 .with_projector(servo.projector()),
             trajectory: self.motion(),
-            wrench: |time| self.experiment().force().at(time),
+            wrench,
             feedback: Feedback::critical(gain),
             control: Control::Every(self.scenario().cycle()),
             brake: Brake {

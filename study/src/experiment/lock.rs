@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use nalgebra::SVector;
+use nalgebra::{SVector, Vector6};
 
 use super::{
     AnyArm, ExperimentError, ExperimentRunner, SearchMethod, for_each_joint, rated_torque,
@@ -118,11 +118,14 @@ impl<const N: usize> ExperimentRunner<'_, N> {
         (span, resolution): (Range<f64>, Resolution),
         observe: &mut dyn FnMut(&Sample<N>),
     ) -> Result<(Impact<N>, Outcome<N>), ExperimentError> {
+        let force = |time| experiment.force().at(time);
+        // Behind a pointer, so that runs are compiled once.
+        let wrench: &dyn Fn(f64) -> Vector6<f64> = &force;
         let simulation = Simulation {
             plant: self.arm,
             controller: self.controller(experiment, compensation)?,
             trajectory: self.motion(),
-            wrench: |time| experiment.force().at(time),
+            wrench,
             feedback: Feedback::critical(lock.gain),
             control: Control::Every(self.scenario.cycle()),
             brake: lock.brake,

@@ -3,12 +3,12 @@
 
 use nalgebra::{IsometryMatrix3, SVector, Vector3, Vector6};
 
-use super::{ExperimentError, KNOT_PERIOD};
+use super::{AnyArm, ExperimentError, KNOT_PERIOD};
 use crate::scenario::{PlannedMotion, Scenario};
 use ulna::control::failure::{Failure, LockedJoints, impact_torque};
 use ulna::control::null_space::NullSpace;
 use ulna::generic::JointLoad;
-use ulna::{Arm, JointKind, SerialChain, TaskRow, Trajectory};
+use ulna::{JointKind, SerialChain, TaskRow, Trajectory};
 
 /// An arm around the lock at one failure time.
 #[derive(Clone, Debug, PartialEq)]
@@ -152,15 +152,16 @@ fn tool<const N: usize>(chain: &SerialChain<N>, q: &SVector<f64, N>) -> [f64; 3]
     (last * chain.tool.isometry()).translation.vector.into()
 }
 
-/// The arm of `scenario`, as data, at each of the scenario's failure times.
+/// The arm of `scenario` at each of the scenario's failure times; `chain` is the same arm as data, which knows where its links are.
 ///
 /// # Errors
-/// When `chain` is not the scenario's arm, or cannot execute its motion.
+/// When `arm` is not the scenario's, or cannot execute its motion.
 pub fn lock_mechanics<const N: usize>(
+    arm: &AnyArm<N>,
     chain: &SerialChain<N>,
     scenario: &Scenario,
 ) -> Result<Vec<LockMechanics>, ExperimentError> {
-    let motion = scenario.motion().plan(chain, KNOT_PERIOD)?;
+    let motion = scenario.motion().plan(arm, KNOT_PERIOD)?;
     let failed = scenario.failed_joints();
     let joints = LockedJoints::new(failed).ok_or_else(|| ExperimentError::Joint {
         joint: failed.iter().copied().max().unwrap_or(0),
@@ -173,12 +174,13 @@ pub fn lock_mechanics<const N: usize>(
                 joints,
                 time: *time,
             };
-            at_lock(chain, &motion, &failure)
+            at_lock(arm, chain, &motion, &failure)
         })
         .collect())
 }
 
 fn at_lock<const N: usize>(
+    arm: &AnyArm<N>,
     chain: &SerialChain<N>,
     motion: &PlannedMotion<N>,
     failure: &Failure<N>,
@@ -189,9 +191,9 @@ fn at_lock<const N: usize>(
     // The tool's wrench is a polynomial of time, and has no step.
     let impact = impact_torque(chain, &state, failure.joints, &Vector6::zeros());
     let loads = chain.joints.iter().zip(&impact.loads);
-    let jacobian = chain.geometric_jacobian(&state.q);
+    let jacobian = arm.geometric_jacobian(&state.q);
     let redundancy = |locked: LockedJoints<N>| {
-        let null_space = NullSpace::new(&locked.reduce_jacobian(&jacobian), chain.task());
+        let null_space = NullSpace::new(&locked.reduce_jacobian(&jacobian), chain.task);
         Redundancy {
             joints: N - locked.len(),
             rank: null_space.rank(),
@@ -207,7 +209,7 @@ fn at_lock<const N: usize>(
     LockMechanics {
         failure_time: failure.time,
         failed_joints: failure.joints.iter().collect(),
-        task: chain.task().iter().map(TaskRow::index).collect(),
+        task: chain.task.iter().map(TaskRow::index).collect(),
         before: redundancy(LockedJoints::NONE),
         after: redundancy(failure.joints),
         loads: loads

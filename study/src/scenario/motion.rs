@@ -7,8 +7,8 @@ use crate::tool_path::{StraightLine, ToolPath};
 use ulna::control::trajectory::TrajectoryError;
 use ulna::proof::random::SplitMix64;
 use ulna::{
-    Arm, JointLimits, JointState, PointToPoint, PositionLimits, Profile, ProfileShape, TaskRows,
-    Trajectory,
+    Arm, Joint, JointLimits, JointState, PointToPoint, PositionLimits, Profile, ProfileShape,
+    TaskRows, Trajectory,
 };
 
 /// A planned motion from rest to rest. Its lists have one entry for each joint of the same arm.
@@ -34,6 +34,49 @@ pub enum Path {
 }
 
 impl Motion {
+    /// From `start` (q, rad, m) along `path`, as `profile` says, by an arm with `joints`, whose velocities and positions the limits of its
+    /// table bound. Whether it can be executed is seen where it is planned.
+    pub fn new(joints: &[Joint], start: Vec<f64>, path: Path, profile: Profile) -> Self {
+        Self {
+            start,
+            path,
+            profile,
+            max_velocity: joints.iter().map(|joint| joint.limits.velocity).collect(),
+            max_acceleration: vec![f64::INFINITY; joints.len()],
+            max_jerk: vec![f64::INFINITY; joints.len()],
+            range: range(joints),
+        }
+    }
+
+    /// The same within further limits, where there are any: |q̇_i|, rad/s (m/s), beside the table's; |q̈_i|, rad/s² (m/s²);
+    /// |d`q̈_i`/dt|, rad/s³ (m/s³). One that is negative or no number counts as 0.
+    #[must_use]
+    pub fn within(
+        mut self,
+        velocity: Option<&[f64]>,
+        acceleration: Option<&[f64]>,
+        jerk: Option<&[f64]>,
+    ) -> Self {
+        let sound = |limits: &[f64]| limits.iter().map(|limit| limit.max(0.0)).collect();
+        if let Some(limits) = velocity {
+            // A list of another length is left as it is, and refused where the motion is planned.
+            let mut velocity: Vec<f64> = sound(limits);
+            let table = self.max_velocity.iter();
+            velocity
+                .iter_mut()
+                .zip(table)
+                .for_each(|(own, table)| *own = own.min(*table));
+            self.max_velocity = velocity;
+        }
+        if let Some(limits) = acceleration {
+            self.max_acceleration = sound(limits);
+        }
+        if let Some(limits) = jerk {
+            self.max_jerk = sound(limits);
+        }
+        self
+    }
+
     /// Where it starts: q, rad (m).
     pub fn start(&self) -> &[f64] {
         &self.start
@@ -150,6 +193,12 @@ impl Motion {
             }
         })
     }
+}
+
+/// The least and the largest q of each joint.
+pub(super) fn range(joints: &[Joint]) -> Vec<(f64, f64)> {
+    let limits = joints.iter().map(|joint| joint.limits);
+    limits.map(|limits| (limits.lower, limits.upper)).collect()
 }
 
 fn for_each_joint<const N: usize>(numbers: &[f64]) -> Result<SVector<f64, N>, PlanError> {

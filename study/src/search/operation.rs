@@ -84,6 +84,17 @@ impl<const N: usize> Operation<N> {
         failure: &Failure<N>,
         options: &OperationOptions<N>,
     ) -> Result<Self, SearchError> {
+        Self::sampled(arm, trajectory, &wrench, failure, options)
+    }
+
+    /// [`new`](Self::new), the wrench behind a pointer, so that it is compiled once whatever it is.
+    fn sampled(
+        arm: &(impl Arm<N> + ?Sized),
+        trajectory: &impl Trajectory<N>,
+        wrench: &dyn Fn(f64) -> Vector6<f64>,
+        failure: &Failure<N>,
+        options: &OperationOptions<N>,
+    ) -> Result<Self, SearchError> {
         let (duration, after) = (trajectory.duration(), failure.time + options.step_time);
         let samples = duration / options.sample_period;
         if !(samples > 0.0 && samples <= 1e6) {
@@ -302,6 +313,15 @@ impl<const N: usize> Operation<N> {
         &self,
         law: Law,
         wanted: impl Fn(&OperatingPoint<N>) -> SVector<f64, N>,
+    ) -> Assessment<N> {
+        self.assess_wanted(law, &wanted)
+    }
+
+    /// [`assess_torque`](Self::assess_torque), what is wanted behind a pointer, so that it is compiled once whatever it is.
+    fn assess_wanted(
+        &self,
+        law: Law,
+        wanted: &dyn Fn(&OperatingPoint<N>) -> SVector<f64, N>,
     ) -> Assessment<N> {
         let mut least_margin = f64::INFINITY;
         let mut fastest_change = 0.0_f64;

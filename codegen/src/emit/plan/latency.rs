@@ -9,8 +9,10 @@ use crate::schedule::{Operand, Program, Step};
 
 /// A summand of a sum or difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::emit) enum Summand {
+pub enum Summand {
+    /// The first one.
     First,
+    /// The second one.
     Second,
 }
 

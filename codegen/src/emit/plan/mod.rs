@@ -13,8 +13,9 @@ use std::collections::HashMap;
 use ulna::Payload;
 
 pub(super) use documentation::Documentation;
-pub(super) use expression::{Expression, Summand};
+pub(super) use expression::Expression;
 pub(super) use header::{header, listed};
+pub use latency::Summand;
 pub(super) use parts::{Item, Part, Parts, items};
 
 use crate::MethodProgram;
@@ -101,6 +102,11 @@ impl Element<'_> {
     pub(super) fn is_zero(&self) -> bool {
         matches!(self.expression, Expression::Number(x) if x == 0.0)
     }
+}
+
+/// Which summand of each step is fused with it in the code that is emitted. Its product is then no operation of its own.
+pub fn fused_summands(program: &Program) -> Vec<Option<Summand>> {
+    latency::fused(program, &inlined(program))
 }
 
 impl<'p> Plan<'p> {

@@ -6,7 +6,7 @@ use super::Reader;
 use crate::scenario::arm::zero_position;
 use crate::scenario::format::bounds::{DURATION, JERK, POSITION, RATE, TOOL_DURATION};
 use crate::scenario::format::motion as format;
-use crate::scenario::motion::{Motion, Path};
+use crate::scenario::motion::{Motion, Path, range};
 use crate::scenario::read::{Angles, List, MotionTable, Numbers, PathTable, ProfileWord};
 use ulna::{Joint, JointKind, Limits, Profile, ProfileShape};
 use ulna_table::AngleUnit;
@@ -55,11 +55,7 @@ impl Reader<'_> {
             max_velocity: max_velocity?,
             max_acceleration: max_acceleration?,
             max_jerk: max_jerk?,
-            range: self
-                .joints?
-                .iter()
-                .map(|joint| (joint.limits.lower, joint.limits.upper))
-                .collect(),
+            range: range(self.joints?),
         })
     }
 
