@@ -25,9 +25,11 @@ def main():
     parser.add_argument("arms", nargs="*", help="names of tables in arms/")
     parser.add_argument("--ulna", type=Path, help="the program, if it has been built")
     parser.add_argument("--rust", type=Path, help="the library of benches/peers, if it has been built: the arms in it are compared")
+    parser.add_argument("--known", action="store_true", help="ask for nothing anew: the page says of how much nothing is known yet")
     parser.add_argument("--output", type=Path, help="the page; docs/c.md if no arm is named")
     parser.add_argument("--jobs", type=int, default=2, help="arms at a time")
     options = parser.parse_args()
+    code.known_alone = options.known
     names = options.arms or sorted(path.stem for path in (ROOT / "arms").glob("*.toml"))
     ulna = options.ulna.resolve() if options.ulna else code.program()
     rust = options.rust.resolve() if options.rust else code.rust()
@@ -39,7 +41,8 @@ def main():
 
     with ThreadPoolExecutor(options.jobs) as pool:
         checked = list(pool.map(one, names))
-    differences = [difference for name in names for difference in agreement.differences(name, rust)]
+    whole = [name for name in names if agreement.is_compiled(name)]
+    differences = [difference for name in whole for difference in agreement.differences(name, rust)]
     text = page.page(checked, differences)
     output = options.output or (None if options.arms else ROOT / "docs/c.md")
     if output:

@@ -1,6 +1,7 @@
 """Results of C beside those of Rust, in units of the last place of the largest entry."""
 
 import ctypes
+import itertools
 import random
 from dataclasses import dataclass
 
@@ -28,6 +29,11 @@ class Difference:
     @property
     def explained(self):
         return self.ulp <= self.bound or self.method == CANCELS
+
+
+def is_compiled(arm):
+    folders = [Files(arm, precision, BUILD / arm / precision) for precision in PRECISIONS]
+    return all(files.library(*way).exists() for files in folders for way in itertools.product(COMPILERS, CONTRACTIONS))
 
 
 def differences(arm, rust):

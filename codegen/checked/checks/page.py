@@ -3,26 +3,36 @@
 import datetime
 import statistics
 import subprocess
+from collections import Counter
 
 from .code import COMPILERS, CONTRACTIONS, MACHINE, PRECISIONS, WARNINGS
 
 
 def page(checked, differences):
     arms = [one.arm for one in checked]
-    rules = sum((one.findings[precision] for one in checked for precision in PRECISIONS), start=type(checked[0].findings["double"])())
+    warned = [text for one in checked for *_, text in one.compiled]
+    looked = [found for one in checked for found in one.findings.values()]
+    rules = sum((found for found in looked if found is not None), start=Counter())
+    ran = [text for one in checked for text in one.memory.values()]
     lines = [
         "# The C code of every arm, checked\n",
         f"Written by `python3 codegen/checked/run.py` on {datetime.date.today()}, of {len(arms)} arms: {', '.join(arms)}.",
         f"{', '.join(version(program) for program in (*COMPILERS, 'cppcheck', 'valgrind'))}.\n",
         f"- `{' '.join(WARNINGS)} -O2`, in double and in single precision, `-ffp-contract=off` and `fast`: "
-        f"**{sum(bool(text) for one in checked for *_, text in one.compiled)}** of {sum(len(one.compiled) for one in checked)} compilations warn.",
-        f"- cppcheck with warnings, style, performance, portability and the MISRA add-on: **{rules.total()} findings**, CasADi's interface included"
-        + (f" ({', '.join(f'{rule}: {count}' for rule, count in sorted(rules.items()))})." if rules else "."),
+        f"**{sum(map(bool, warned))}** of {asked(warned, 'compilations')} warn.",
+        f"- cppcheck with warnings, style, performance, portability and the MISRA add-on, CasADi's interface included: **{rules.total()} findings** in"
+        f" {asked(looked, 'files')}" + (f" ({', '.join(f'{rule}: {count}' for rule, count in sorted(rules.items()))})." if rules else "."),
         "  This is not a claim of compliance: the add-on knows part of the rules.",
-        f"- valgrind, every function on arrays as long as its prototype says: **{sum(bool(text) for one in checked for text in one.memory.values())}**"
-        f" of {2 * len(checked)} programs read or write what they should not, use what was not written, or leak.\n",
+        f"- valgrind, every function on arrays as long as its prototype says: **{sum(map(bool, ran))}** of {asked(ran, 'programs')}"
+        " read or write what they should not, use what was not written, or leak.\n",
     ]
     return "\n".join(lines + (beside_rust(differences) if differences else [])) + "\n"
+
+
+def asked(said, what):
+    """How many, and how many have not been asked yet."""
+    unasked = said.count(None)
+    return f"{len(said) - unasked} {what}" + (f" ({unasked} more not run yet)" if unasked else "")
 
 
 def beside_rust(differences):
