@@ -4,7 +4,7 @@
     python3 benches/growth/c.py                                          all sizes and lengths; writes c.csv and c.md
     python3 benches/growth/c.py --joints 15 --lengths 500 --compilers gcc    these anew; c.csv keeps the others
 
-The arms are those of run.py. `whole` is the file with all methods: no method of it takes more memory. `largest` is mass_matrix_and_derivatives alone.
+The arms are those of run.py. `whole` is the file with all methods. `largest` is mass_matrix_and_derivatives alone.
 Needs cargo, gcc and clang. Exit code 1 if something of 15 joints takes more than 1 GB.
 """
 
@@ -83,7 +83,7 @@ def page(rows):
         "# To compile the C code of an arm\n",
         f"Written by `python3 benches/growth/c.py` on {datetime.date.today()}, from `c.csv`: `-std=c99 -O2 -c`, processor seconds (they drift with what else runs) and memory"
         " of the largest process. Arms of `growth/table.py`: nothing folds. `length` is that of `--function-length`; `whole` has all methods, "
-        f"`largest` {LARGEST} alone. No method takes more memory alone than in the whole file.\n",
+        f"`largest` {LARGEST} alone.\n",
         "| joints | | length | source, MB | compiler | s | MB |",
         "|--:|---|--:|--:|---|--:|--:|",
     ]
