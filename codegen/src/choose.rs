@@ -1,6 +1,7 @@
 //! Among the ways to write an arm's formulas down: the cheapest that is exact enough.
 
 use std::borrow::Cow;
+use std::cell::LazyCell;
 
 use ulna::{Method, MethodSet};
 use ulna_table::Model;
@@ -22,15 +23,19 @@ const EXACT: f64 = 1e-10;
 const WAYS: [(bool, usize); 4] = [(false, 2), (false, 3), (true, 2), (true, 3)];
 
 /// Tries the Jacobian in every frame, for J itself and for w_D, and for w_D its rows in two orders;
-/// what none of `methods` depends on is left as it is.
-pub(super) fn choose(model: &Model, states: &TestStates, methods: MethodSet) -> Choices {
+/// what none of `methods` depends on is left as it is, and the states are not made if nothing is judged.
+pub(super) fn choose(
+    model: &Model,
+    states: &LazyCell<TestStates, impl FnOnce() -> TestStates>,
+    methods: MethodSet,
+) -> Choices {
     let is_needed = |chosen| {
         methods
             .iter()
             .any(|method| depends_on(method).contains(&chosen))
     };
     let none = Choices {
-        singular: states.singular_everywhere,
+        singular: is_needed(Chosen::Task) && states.singular_everywhere,
         ..Choices::default()
     };
     let world = is_needed(Chosen::World).then(|| of_jacobian(model, states, none));
@@ -48,7 +53,7 @@ pub(super) fn choose(model: &Model, states: &TestStates, methods: MethodSet) -> 
 
 /// The frames that J may be built in.
 fn frames(model: &Model) -> impl Iterator<Item = usize> + Clone {
-    0..=Chain::new(&Graph::new(), model).groups.len()
+    0..=Chain::new(&Graph::without_labels(), model).groups.len()
 }
 
 fn of_jacobian(model: &Model, states: &TestStates, none: Choices) -> Choices {
@@ -113,7 +118,7 @@ fn longest_first(model: &Model, choices: Choices, states: &TestStates) -> [usize
     if choices.singular || model.task().len() == 1 {
         return choices.order;
     }
-    let graph = Graph::new();
+    let graph = Graph::without_labels();
     let lengths = task::squared_lengths(&Chain::new(&graph, model), choices);
     states.longest_first(&schedule(&graph, &lengths))
 }
@@ -144,7 +149,7 @@ pub(super) fn conditioned(
         order: IN_ORDER,
         ..choices
     };
-    let graph = Graph::new();
+    let graph = Graph::without_labels();
     let outputs = task::sensitivity(&Chain::new(&graph, model), as_listed);
     let sensitivity = schedule(&graph, &outputs);
     states.conditioned(model, &gradient, &sensitivity)

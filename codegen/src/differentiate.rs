@@ -1,7 +1,5 @@
 //! Derivatives by the joint coordinates, built on the graph and so simplified while they are built.
 
-use std::collections::HashMap;
-
 use crate::graph::{Expr, Graph, Id, Input, Node};
 use crate::label::{Label, subscripts};
 
@@ -33,9 +31,10 @@ pub fn reverse<'g>(
     joints: usize,
 ) -> Vec<Expr<'g>> {
     let zero = graph.constant(0.0);
-    let mut adjoints: HashMap<Id, Expr<'g>> = HashMap::new();
-    let add = |adjoints: &mut HashMap<Id, Expr<'g>>, id: Id, summand: Expr<'g>| {
-        let sum = adjoints.entry(id).or_insert(zero);
+    // Of the nodes that there are: those that the sweep adds are no arguments of theirs.
+    let mut adjoints = vec![zero; graph.len()];
+    let add = |adjoints: &mut [Expr<'g>], id: Id, summand: Expr<'g>| {
+        let sum = &mut adjoints[id.index()];
         *sum = *sum + summand;
     };
     for (output, seed) in seeded {
@@ -45,7 +44,7 @@ pub fn reverse<'g>(
     let mut angles: Vec<(usize, Expr<'g>)> = Vec::new();
     let order = reachable(graph, seeded.iter().map(|(output, _)| output.id()));
     for id in order.into_iter().rev() {
-        let adjoint = adjoints.get(&id).copied().unwrap_or(zero);
+        let adjoint = adjoints[id.index()];
         if adjoint.is_zero() {
             continue;
         }

@@ -7,7 +7,7 @@ use ulna::{Method, MethodSet};
 use ulna_table::Model;
 use ulna_table::toml_reader::closest;
 
-use crate::{COptions, Compiled, Error, Generated, GeneratedC, Stage, build};
+use crate::{COptions, Compiled, Error, Generated, GeneratedC, Program, Stage, build};
 
 /// Generates code for every method of [`ulna::Arm`], or for some of them.
 ///
@@ -120,6 +120,21 @@ impl Generator {
         crate::compile_methods(model, self.methods, watch)
     }
 
+    /// The programs that [`compile`](Self::compile) has, step by step the same, in the order of [`Method::ALL`]: not measured, and without
+    /// names of steps. Where the errors and names are not asked for, most of the time goes into them.
+    ///
+    /// ```
+    /// use ulna::Method;
+    /// use ulna_codegen::Generator;
+    /// let model = ulna_table::Model::load("../arms/planar_2r.toml")?;
+    /// let programs = Generator::new().methods(&[Method::MassMatrix]).programs(&model);
+    /// assert_eq!(programs[0].1.steps.len(), 3);
+    /// # Ok::<(), ulna_table::TableErrors>(())
+    /// ```
+    pub fn programs(&self, model: &Model) -> Vec<(Method, Program)> {
+        crate::programs_of(model, self.methods)
+    }
+
     /// As [`compile_arms`](crate::compile_arms).
     ///
     /// # Errors
@@ -187,7 +202,17 @@ mod tests {
         }
     }
 
-    /// Nothing of a method's program depends on what else is generated.
+    /// Names apart.
+    fn is_the_same(program: &Program, measured: &Program) {
+        assert_eq!(program.steps, measured.steps);
+        assert_eq!(program.angles, measured.angles);
+        for (output, measured) in program.outputs.iter().zip(&measured.outputs) {
+            assert_eq!(output.elements, measured.elements, "{}", measured.name);
+        }
+        assert_eq!(program.outputs.len(), measured.outputs.len());
+    }
+
+    /// Nothing of a method's program depends on what else is generated, nor on whether it is measured.
     #[test]
     fn a_method_alone_is_what_it_is_among_all() {
         for arm in ["planar_2r", "ssrms", "oblique_6"] {
@@ -202,6 +227,10 @@ mod tests {
                 assert_eq!(only.method, whole.method);
                 assert_eq!(only.error.to_bits(), whole.error.to_bits());
                 assert_eq!(only.program.steps, whole.program.steps, "{}", only.method);
+                let programs = Generator::new().methods(&[whole.method]).programs(&model);
+                assert_eq!(programs.len(), 1);
+                assert_eq!(programs[0].0, whole.method);
+                is_the_same(&programs[0].1, &whole.program);
                 let rows = only.method.zero_where_singular();
                 assert_eq!(alone.conditioned, rows.and(all.conditioned));
             }

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::fmt;
 
+use rustc_hash::FxHashMap;
 use ulna::Real;
 
 use crate::double_double::DoubleDouble;
@@ -84,7 +85,8 @@ impl AngleSum {
 #[derive(Default)]
 pub struct Graph {
     nodes: RefCell<Vec<Node>>,
-    places: RefCell<HashMap<Node, Id>>,
+    /// Looked up for every expression that is formed, and never iterated: by a quick hash.
+    places: RefCell<FxHashMap<Node, Id>>,
     angles: RefCell<Vec<AngleSum>>,
     labels: RefCell<HashMap<Id, Label>>,
     /// Whether names are kept.
@@ -109,6 +111,11 @@ impl Graph {
     /// An empty graph whose expressions have no names: for programs that are compared, and not read.
     pub(crate) fn without_labels() -> Self {
         Self::default()
+    }
+
+    /// Whether expressions keep names.
+    pub(crate) fn has_labels(&self) -> bool {
+        self.has_labels
     }
 
     /// How many nodes there are.

@@ -16,7 +16,8 @@
 //! - [`Generator`]: all that for some methods alone.
 //! - [`generate`]: a [`Model`] in, [`Generated`] code out, as text or tokens.
 //! - [`Generator::generate_c`]: the same arm in C, as a header and a source file ([`GeneratedC`], [`COptions`]).
-//! - [`compile`]: the [`Program`]s that code is printed from, for whoever prints them in another way.
+//! - [`compile`]: the [`Program`]s that code is printed from, for whoever prints them in another way; [`Generator::programs`]: the
+//!   same at once, for whoever runs them.
 //! - [`BaseParameters`]: which combinations of inertial parameters an arm's torques depend on.
 //! - [`Interpreter`]: an arm that runs its programs without a compiler, in `f64` or in 106 bits.
 //!
@@ -74,6 +75,8 @@ mod op;
 mod schedule;
 mod sines;
 mod stage;
+
+use std::cell::LazyCell;
 
 use ulna::MethodSet;
 use ulna_table::{Lint, Model};
@@ -155,7 +158,7 @@ pub fn compile(model: &Model) -> Compiled {
 /// Those methods as programs; `watch` is told of every step before it is taken.
 fn compile_methods(model: &Model, methods: MethodSet, watch: &dyn Fn(Stage)) -> Compiled {
     watch(Stage::Choosing);
-    let states = TestStates::new(model);
+    let states = LazyCell::new(|| TestStates::new(model));
     let base_parameters = BaseParameters::of(model);
     let choices = Choices {
         base: base_parameters.columns(),
@@ -178,6 +181,18 @@ fn compile_methods(model: &Model, methods: MethodSet, watch: &dyn Fn(Stage)) -> 
         states: [states.random(), states.near_singular],
         warnings: warnings_of(model, &states),
     }
+}
+
+/// Those methods as programs, the same that are compiled, without anything that is only told of them.
+fn programs_of(model: &Model, methods: MethodSet) -> Vec<(Method, Program)> {
+    let states = LazyCell::new(|| TestStates::new(model));
+    let mut choices = choose(model, &states, methods);
+    if methods.contains(Method::BaseRegressor) {
+        choices.base = BaseParameters::of(model).columns();
+    }
+    let program = |method| compile_on(&Graph::without_labels(), model, method, choices);
+    let programs = methods.iter().map(|method| (method, program(method)));
+    programs.collect()
 }
 
 /// What the user should know of an arm before there is code for it, a sentence each, beside what [`Model::lint`] finds.

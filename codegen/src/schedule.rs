@@ -2,8 +2,6 @@
 //!
 //! After this point there are no graphs and no expressions any more, only straight-line programs.
 
-use std::collections::HashMap;
-
 use ulna::Real;
 
 use crate::differentiate::reachable;
@@ -115,32 +113,39 @@ pub fn schedule(graph: &Graph, outputs: &[Output<Expr<'_>>]) -> Program {
     let needed = reachable(graph, roots);
     let angles = angles_in_order(graph, &needed);
     let (mut steps, mut labels) = (Vec::new(), Vec::new());
-    let mut operands: HashMap<Id, Operand> = HashMap::with_capacity(needed.len());
+    // By places in the graph; of what is not needed nothing is read.
+    let mut operands = vec![Operand::Constant(DoubleDouble::default()); graph.len()];
     for id in needed {
         let operand = match graph.node(id) {
             Node::Constant(bits) => Operand::Constant(DoubleDouble::from_bits(bits)),
             Node::Input(input) => Operand::Input(renumbered(input, &angles)),
             Node::Apply(op, a, b) => {
-                let (a, b) = (operands[&a], operands[&b]);
+                let (a, b) = (operands[a.index()], operands[b.index()]);
                 steps.push(Step { op, a, b });
                 labels.push(graph.label(id));
                 Operand::Step(steps.len() - 1)
             }
         };
-        operands.insert(id, operand);
+        operands[id.index()] = operand;
     }
     let outputs: Vec<_> = outputs
         .iter()
         .map(|output| Output {
             name: output.name,
             shape: output.shape.clone(),
-            elements: output.elements.iter().map(|e| operands[&e.id()]).collect(),
+            elements: output
+                .elements
+                .iter()
+                .map(|e| operands[e.id().index()])
+                .collect(),
             size: output.size,
         })
         .collect();
-    outputs
-        .iter()
-        .for_each(|output| name_results(output, &mut labels));
+    if graph.has_labels() {
+        outputs
+            .iter()
+            .for_each(|output| name_results(output, &mut labels));
+    }
     Program {
         angles: angles.into_iter().map(|angle| graph.angle(angle)).collect(),
         steps,

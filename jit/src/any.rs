@@ -3,9 +3,10 @@
 use std::fmt;
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use ulna::internal::{admit, carry};
 use ulna::{Method, MethodSet, Payload, PayloadError, TaskRows};
-use ulna_codegen::Compiled;
+use ulna_codegen::{Compiled, Generator, Program};
 use ulna_table::Model;
 
 use crate::host::Host;
@@ -59,7 +60,17 @@ impl AnyJit {
     /// # Errors
     /// When there is no machine code for this machine, or no memory for it.
     pub fn compile(model: &Model) -> Result<Self, Error> {
-        Self::of(model, &ulna_codegen::compile(model))
+        Self::compile_methods(model, Method::ALL)
+    }
+
+    /// Those methods of the arm of `model`. It takes much less time than all of them.
+    ///
+    /// # Errors
+    /// As [`compile`](Self::compile).
+    pub fn compile_methods(model: &Model, methods: &[Method]) -> Result<Self, Error> {
+        let programs = Generator::new().methods(methods).programs(model);
+        let programs = programs.iter().map(|(method, program)| (*method, program));
+        Self::new(model, programs.collect())
     }
 
     /// Those methods of the arm of `model` that are among the programs `compiled` of it.
@@ -67,12 +78,24 @@ impl AnyJit {
     /// # Errors
     /// As [`compile`](Self::compile); and when the programs are those of another arm.
     pub fn of(model: &Model, compiled: &Compiled) -> Result<Self, Error> {
+        let programs = compiled.methods.iter();
+        let programs = programs.map(|found| (found.method, &found.program));
+        Self::new(model, programs.collect())
+    }
+
+    /// Program by program, on all cores.
+    fn new(model: &Model, programs: Vec<(Method, &Program)>) -> Result<Self, Error> {
         let host = Host::new()?;
         let joints = model.joints().len();
+        let made = programs.into_par_iter().map(|(method, program)| {
+            let kernel = Kernel::new(&host, method, program, joints)?;
+            Ok((method, kernel))
+        });
+        let made: Vec<Result<(Method, Kernel), Error>> = made.collect();
         let mut kernels: Vec<Option<Kernel>> = Method::ALL.iter().map(|_| None).collect();
-        for found in &compiled.methods {
-            let kernel = Kernel::new(&host, found.method, &found.program, joints)?;
-            kernels[found.method as usize] = Some(kernel);
+        for made in made {
+            let (method, kernel) = made?;
+            kernels[method as usize] = Some(kernel);
         }
         Ok(Self {
             parameters: Payload::NONE.parameters(model.tool()),

@@ -39,6 +39,15 @@ impl<const N: usize> Jit<N> {
         Ok(Self::new(AnyJit::compile(model)?)?)
     }
 
+    /// Those methods of the arm of `model`; the others run by the formulas of [`SerialChain`].
+    ///
+    /// # Errors
+    /// As [`compile`](Self::compile).
+    pub fn compile_methods(model: &Model, methods: &[Method]) -> Result<Self, Error> {
+        SerialChain::<N>::try_from(model)?;
+        Ok(Self::new(AnyJit::compile_methods(model, methods)?)?)
+    }
+
     /// The arm of `model` with the programs `compiled` of it.
     ///
     /// # Errors

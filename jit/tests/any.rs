@@ -6,7 +6,7 @@ use std::thread;
 use ulna::internal::numbers;
 use ulna::nalgebra::Vector2;
 use ulna::proof::{self, State, states};
-use ulna::{Argument, Arm, Method, Payload, PayloadError};
+use ulna::{Argument, Arm, Method, MethodSet, Payload, PayloadError};
 use ulna_codegen::{Generator, Input, Operand};
 use ulna_generated::{Geared6, Planar2r};
 use ulna_jit::{AnyJit, CallError, Error, Jit};
@@ -86,7 +86,7 @@ fn shapes_are_those_that_users_see() {
     }
     assert_eq!(any.length(Method::ForwardKinematics), 12);
     assert_eq!((any.name(), any.joints()), ("planar_2r", 2));
-    assert_eq!(any.methods(), ulna::MethodSet::ALL);
+    assert_eq!(any.methods(), MethodSet::ALL);
 }
 
 #[test]
@@ -105,7 +105,12 @@ fn a_singular_task_has_no_gradient() {
 
 #[test]
 fn a_payload_is_carried_where_the_table_allows_one() {
-    let bare = AnyJit::compile(&model("geared_6")).unwrap();
+    const METHODS: [Method; 3] = [
+        Method::MassMatrix,
+        Method::InverseDynamics,
+        Method::ForwardDynamics,
+    ];
+    let bare = AnyJit::compile_methods(&model("geared_6"), &METHODS).unwrap();
     let payload = proof::payload(&Geared6::CHAIN);
     let arm = Jit::<6>::new(bare.carrying(&payload).unwrap()).unwrap();
     let also = Jit::<6>::new(bare.clone())
@@ -114,11 +119,7 @@ fn a_payload_is_carried_where_the_table_allows_one() {
         .unwrap();
     let generated = Geared6::carrying(payload).unwrap();
     for state in states(&Geared6::CHAIN).take(3) {
-        for method in [
-            Method::MassMatrix,
-            Method::InverseDynamics,
-            Method::ForwardDynamics,
-        ] {
+        for method in METHODS {
             let expected = of(&generated, method, &state);
             assert_eq!(of(&arm, method, &state), expected);
             assert_eq!(of(&also, method, &state), expected);
@@ -174,10 +175,8 @@ fn what_does_not_fit_is_refused_and_nothing_is_written() {
 #[test]
 fn what_is_not_compiled_is_refused_or_left_to_the_textbook() {
     let model = model("planar_2r");
-    let compiled = Generator::new()
-        .methods(&[Method::MassMatrix])
-        .compile(&model);
-    let arm = Jit::<2>::of(&model, &compiled).unwrap();
+    let arm = Jit::<2>::compile_methods(&model, &[Method::MassMatrix]).unwrap();
+    assert_eq!(arm.any().methods(), MethodSet::of(&[Method::MassMatrix]));
     let refused = arm
         .any()
         .call(Method::GravityTorque, &[&[0.0; 2]], &mut [0.0; 2]);

@@ -1,23 +1,18 @@
-//! Every arm of `arms/`: machine code against the textbook and the interpreter, method by method.
+//! Every arm of `arms/`: machine code against the textbook, method by method.
 
 use std::fs;
 
 use ulna::SerialChain;
-use ulna::proof::{State, compare, compare_with, states};
-use ulna_codegen::Interpreter;
+use ulna::proof::{State, compare, states};
 use ulna_jit::Jit;
 use ulna_table::Model;
 
 fn prove<const N: usize>(name: &str) {
     let model = Model::load(format!("../arms/{name}.toml")).unwrap();
     let chain = SerialChain::<N>::try_from(&model).unwrap();
-    let compiled = ulna_codegen::compile(&model);
-    let jit = Jit::<N>::of(&model, &compiled).unwrap();
-    let poses = || states(&chain).take(4).chain([State::default()]);
-    let report = compare(&jit, &chain, poses());
-    assert!(report.passes(), "{name}: {report}");
-    let interpreter = Interpreter::<N>::of(&model, compiled).unwrap();
-    let report = compare_with(&jit, &interpreter, &chain, poses());
+    let jit = Jit::<N>::compile(&model).unwrap();
+    let poses = states(&chain).take(4).chain([State::default()]);
+    let report = compare(&jit, &chain, poses);
     assert!(report.passes(), "{name}: {report}");
 }
 

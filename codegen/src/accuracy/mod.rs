@@ -64,7 +64,7 @@ pub(crate) struct TestStates {
 impl TestStates {
     /// Chooses the states for the arm of `model`.
     pub(crate) fn new(model: &Model) -> Self {
-        let graph = Graph::new();
+        let graph = Graph::without_labels();
         let program = schedule(&graph, &relative_volume(&Chain::new(&graph, model)));
         let relative = |q: &[f64]| {
             let state = State {

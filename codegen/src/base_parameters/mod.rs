@@ -187,7 +187,7 @@ type Numbers = [DoubleDouble; Parameter::COUNT];
 
 /// Of a unit parameter of a joint's link, the part that the joint's motion cannot change: in the link's frame, and in that of the link before.
 fn parted(joint: &Joint, parameter: Parameter) -> (Numbers, Numbers) {
-    let graph = Graph::new();
+    let graph = Graph::without_labels();
     let unit = Parameter::ALL.map(|other| graph.constant(f64::from(u8::from(other == parameter))));
     let part = indifferent_part(joint, &Body::of_parameters(unit));
     let numbers = |body: Body<'_>| {
@@ -225,7 +225,7 @@ fn left_in_order(joints: &[Joint]) -> Vec<(usize, Parameter)> {
 /// The regressor's columns at all states, one below the other, relative to what their terms can amount to.
 fn stacked(model: &Model, places: &[(usize, Parameter)]) -> Vec<Vec<DoubleDouble>> {
     let links = model.joints().len();
-    let graph = Graph::new();
+    let graph = Graph::without_labels();
     let chain = Chain::new(&graph, model);
     let outputs = formulate(Method::Regressor, &chain, Choices::default());
     let program = schedule(&graph, &outputs);
