@@ -163,9 +163,9 @@ fn a_campaign_is_changed_within_its_bounds() {
     let changed = scenario.clone().with_seed(7).with_cases(1).unwrap();
     let campaign = changed.campaign();
     assert_eq!((campaign.seed(), campaign.cases()), (7, 1));
-    for cases in [0, 1_000_001] {
+    for cases in [0, 1_000_000_000_001] {
         let refusal = scenario.clone().with_cases(cases).unwrap_err();
-        let expected = format!("a campaign of {cases} cases: it must have 1 to 1000000");
+        let expected = format!("a campaign of {cases} cases: it must have 1 to 1000000000000");
         assert_eq!(refusal.to_string(), expected);
     }
 }
@@ -339,7 +339,7 @@ fn sizes() {
         ("[[experiment]]", &*experiments(31)),
         ("[campaign]", &figures(100)),
         ("cycle = 0.01", "cycle = 0.002"),
-        ("cases = 10_000", "cases = 1_000_000"),
+        ("cases = 10_000", "cases = 1_000_000_000_000"),
         ("failure_times = 20", "failure_times = 1_000"),
     ];
     let scenario = parse(&edited(&most)).unwrap_or_else(|errors| panic!("{errors}"));
@@ -355,7 +355,7 @@ fn sizes() {
         ("[campaign]", &figures(101)),
         ("cycle = 0.01", "cycle = 0.0019"),
         ("duration = 20.0", "duration = 100_001"),
-        ("cases = 10_000", "cases = 1_000_001"),
+        ("cases = 10_000", "cases = 1_000_000_000_001"),
         ("failure_times = 20", "failure_times = 1_001"),
     ]);
     insta::assert_snapshot!(messages);

@@ -1,17 +1,20 @@
-//! `campaign.csv`: grows as `campaign.csv.partial`, and gets its name when it is whole.
+//! `campaign.csv`, or a shard's rows: grows under a name that ends in `.partial`, and gets its own when it is whole.
 //!
-//! After each addition `campaign.json` says how far the rows are good. What stands behind that, as after a loss of power,
-//! is made again; before it no byte may have changed.
+//! After each addition the record beside it says how far the rows are good. What stands behind that, as after a loss of
+//! power, is made again; before it no byte may have changed.
 
 use std::fs::{self, OpenOptions};
-use std::io::Write;
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, bail};
+use anyhow::{Context, anyhow, bail};
+use ulna_study::Scenario;
 
-use super::record::{Identity, Record, Recorder, remedy};
+use super::hashed::Hashed;
+use super::part::Part;
+use super::record::{Record, Recorder, remedy};
 use super::row::{self, Row};
-use crate::output::{target, write_whole};
+use crate::output::{Staged, target, write_whole};
 use crate::rows;
 
 /// The file under way, or complete.
@@ -21,31 +24,37 @@ pub(super) struct CampaignFile {
     recorder: Recorder,
     /// The first line.
     header: String,
-    rows: Vec<Row>,
+    /// The number of its first case.
+    first: u64,
+    /// How many cases are asked for.
     cases: u64,
+    /// The rows that are asked for and there; `None` if nobody will ask for them.
+    kept: Option<Vec<Row>>,
     complete: bool,
 }
 
 impl CampaignFile {
-    /// Takes up what is in `folder`: rows of another campaign, or of none, are refused.
+    /// Takes up what there is of `part`: rows of another campaign, or of none, are refused.
     /// Some of them are made again with `remake`, because a program may change without its version.
+    /// Only where rows are to be kept are they in memory.
     pub(super) fn open(
-        folder: &Path,
-        cases: u64,
-        header: String,
-        identity: &Identity,
+        part: &Part,
+        scenario: &Scenario,
+        keep: bool,
         remake: impl Fn(u64) -> Row,
     ) -> anyhow::Result<Self> {
         // Beside what it becomes, wherever a link leads.
-        let whole = target(&folder.join("campaign.csv"))?;
+        let whole = target(&part.file("csv"))?;
         let partial = target(&whole.with_extension("csv.partial"))?;
+        let range = part.range();
         let mut file = Self {
             whole,
             partial,
-            recorder: Recorder::new(folder, identity.clone()),
-            header,
-            rows: Vec::new(),
-            cases,
+            recorder: Recorder::new(part, scenario),
+            header: row::header(scenario.campaign().laws())?,
+            first: range.start,
+            cases: range.end - range.start,
+            kept: keep.then(Vec::new),
             complete: false,
         };
         // A whole file that is being continued is whole still, but the other has more rows.
@@ -57,56 +66,73 @@ impl CampaignFile {
             write_whole(&file.partial, file.header.as_bytes())?;
             return Ok(file);
         };
-        let text = file.take_up(path, folder, identity, remake)?;
-        file.complete = *path == file.whole && file.rows() >= cases;
-        if !file.complete {
+        let recorded = file.take_up(path, remake)?;
+        file.complete = *path == file.whole && file.rows() >= file.cases;
+        if *path == file.partial {
             // Without what was added and not recorded.
-            write_whole(&file.partial, &text)?;
+            let opened = OpenOptions::new().write(true).open(path);
+            let cut = opened.and_then(|file| {
+                file.set_len(recorded)?;
+                file.sync_data()
+            });
+            cut.with_context(|| format!("cannot write {}", path.display()))?;
+        } else if !file.complete {
+            Staged::copy(&file.partial, path)?.persist()?;
         }
         Ok(file)
     }
 
-    /// Reads the rows at `path`, and returns what of the file is good.
-    fn take_up(
-        &mut self,
-        path: &Path,
-        folder: &Path,
-        identity: &Identity,
-        remake: impl Fn(u64) -> Row,
-    ) -> anyhow::Result<Vec<u8>> {
-        let mut text = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-        if !text.starts_with(self.header.as_bytes()) {
+    /// Reads the rows at `path`, and returns how many bytes of the file are good.
+    fn take_up(&mut self, path: &Path, remake: impl Fn(u64) -> Row) -> anyhow::Result<u64> {
+        let cannot_read = || format!("cannot read {}", path.display());
+        let mut file = Hashed::open(path)?;
+        let mut header = Vec::new();
+        let length = self.header.len() as u64;
+        let read = file.by_ref().take(length).read_to_end(&mut header);
+        read.with_context(cannot_read)?;
+        if header != self.header.as_bytes() {
             bail!(
                 "{} is no file of a campaign, or of one with other columns, by other `laws` or an older program; {}",
                 path.display(),
                 remedy()
             );
         }
-        let record = Record::read(folder, path, identity)?;
-        let changed = || format!("{} has been changed; {}", path.display(), remedy());
-        let recorded = usize::try_from(record.bytes).unwrap_or(usize::MAX);
+        let record = Record::read(&self.recorder, path)?;
+        let changed = || anyhow!("{} has been changed; {}", path.display(), remedy());
+        let found = fs::metadata(path).with_context(cannot_read)?.len();
         // Only the file under way has more in it than is recorded.
-        if text.len() < recorded || (*path == self.whole && text.len() > recorded) {
+        if found < record.bytes || (*path == self.whole && found > record.bytes) {
             bail!(changed());
         }
-        text.truncate(recorded);
-        let rows = Some(&text).filter(|text| record.is_of(text));
-        let rows = rows
-            .and_then(|text| row::read(text).ok())
-            .with_context(changed)?;
-        if rows.len() as u64 != record.rows {
+        let mut lines = file.take(record.bytes.saturating_sub(length));
+        let wanted = record.rows.min(self.cases);
+        let looked_at = [0, wanted / 3, wanted / 2, wanted.saturating_sub(1)];
+        let mut looked_at_rows = Vec::new();
+        let mut count = 0;
+        for row in row::read(&mut lines, self.first) {
+            let row = row.map_err(|_| changed())?;
+            if looked_at.contains(&count) {
+                looked_at_rows.push(row.clone());
+            }
+            if count < wanted
+                && let Some(kept) = &mut self.kept
+            {
+                kept.push(row);
+            }
+            count += 1;
+            // Of rows that nobody asked for the hash alone is looked at.
+            if count == wanted && wanted < record.rows {
+                break;
+            }
+        }
+        io::copy(&mut lines, &mut io::sink()).with_context(cannot_read)?;
+        let hash = lines.into_inner().hash();
+        if count != wanted || !record.is_of(hash.clone()) {
             bail!(changed());
         }
-        for index in [
-            0,
-            rows.len() / 3,
-            rows.len() / 2,
-            rows.len().saturating_sub(1),
-        ] {
-            let Some(row) = rows.get(index) else {
-                continue;
-            };
-            if rows::lines([&remake(index as u64)])? != rows::lines([row])? {
+        for row in &looked_at_rows {
+            let index = row.case.case;
+            if rows::lines([&remake(index)])? != rows::lines([row])? {
                 bail!(
                     "case {index} of {} comes out otherwise by this program; {}",
                     path.display(),
@@ -114,14 +140,13 @@ impl CampaignFile {
                 );
             }
         }
-        self.recorder.add(&text, record.rows);
-        self.rows = rows;
-        Ok(text)
+        self.recorder.go_on(&record, hash);
+        Ok(record.bytes)
     }
 
-    /// How many cases are in it.
+    /// How many of the cases that are asked for are in it.
     pub(super) fn rows(&self) -> u64 {
-        self.cases.min(self.rows.len() as u64)
+        self.cases.min(self.recorder.rows())
     }
 
     /// Where it is, or will be.
@@ -141,17 +166,18 @@ impl CampaignFile {
         written.with_context(|| format!("cannot write {}", self.partial.display()))?;
         self.recorder.add(text.as_bytes(), rows.len() as u64);
         self.recorder.write()?;
-        self.rows.extend(rows);
+        if let Some(kept) = &mut self.kept {
+            kept.extend(rows);
+        }
         Ok(())
     }
 
-    /// Gives the file its name, and returns the rows that were asked for.
-    pub(super) fn finish(mut self) -> anyhow::Result<Vec<Row>> {
+    /// Gives the file its name, and returns the rows that were asked for, if they were kept.
+    pub(super) fn finish(self) -> anyhow::Result<Vec<Row>> {
         if !self.complete {
             fs::rename(&self.partial, &self.whole)
                 .with_context(|| format!("cannot write {}", self.whole.display()))?;
         }
-        self.rows.truncate(self.rows().try_into()?);
-        Ok(self.rows)
+        Ok(self.kept.unwrap_or_default())
     }
 }

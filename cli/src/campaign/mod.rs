@@ -1,44 +1,58 @@
 //! `ulna campaign`: a scenario with every joint failing at many times, varied at random.
 
 mod file;
+mod hashed;
+mod make;
+pub(crate) mod merge;
+mod part;
 mod record;
 mod row;
+mod slurm;
 mod summary;
 
-use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
-use std::time::Instant;
 
-use anyhow::Context;
+use anyhow::bail;
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
-use rayon::prelude::*;
 use ulna::SerialChain;
 use ulna_study::Scenario;
-use ulna_study::experiment::{AnyArm, Campaign};
+use ulna_study::experiment::{AnyArm, Campaign, Shard};
 use ulna_study::scenario::CampaignSettings;
 
 use crate::arms::{ForArm, GENERATED, with_arm, with_chain_of};
 use crate::figures::{self, HeatMap};
 use crate::joints::ForChain;
-use crate::output::{self, Files, FolderLock};
+use crate::output::{self, Files};
 use crate::{Verdict, console};
-use file::CampaignFile;
-use record::Identity;
+use make::{Make, make_part, seconds_a_case};
+use part::Part;
 pub(crate) use row::{LawCells, Row};
 use summary::Summary;
 pub(crate) use summary::median;
+
+/// The most cases of a run that sums up: their rows are in memory together, with what is counted of them 0.8 KB each with
+/// six laws.
+const MOST_SUMMED_UP: u64 = 10_000_000;
 
 /// Vary a scenario: every joint, a grid of failure times, random starts, goals and forces
 ///
 /// Takes arms of up to 12 joints.
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  ulna campaign scenarios/paper_like.toml --cases 140 --output target/campaign\n\n\
+    after_help = "Examples:\n  ulna campaign scenarios/paper_like.toml --cases 140 --output target/campaign\n  \
+    ulna campaign scenarios/paper_like.toml --cases 140 --shard 1/2 --output target/shards\n  \
+    ulna campaign scenarios/paper_like.toml --cases 140 --shard 2/2 --output target/shards\n  \
+    ulna campaign scenarios/paper_like.toml --cases 140 --slurm --output target/shards\n\n\
     Interrupted, it goes on where it stopped when it is called again. The result does not depend on the number of threads.\n\
     campaign.json beside the rows says which campaign they are of: those of another, and rows that were changed, are refused.\n\
-    One run at a time works in a folder: it holds campaign.lock, which stays and is in nobody's way."
+    One run at a time works in a folder: it holds campaign.lock, which stays and is in nobody's way.\n\n\
+    A case depends on the seed and its number alone, so that a campaign can be made in shards, on as many machines as there are.\n\
+    `--shard 3/16` makes campaign-0003-of-0016.csv with its manifest, a .json, and goes on where it stopped as well.\n\
+    All shards may share a folder, at the same time too. `ulna merge` puts them together; where it has written campaign.csv,\n\
+    the campaign without `--shard` finds all cases there, and adds page and figures.\n\
+    A run that sums up takes 10000000 cases at most; with fewer `--cases` it sums up the first of those that are there.\n\n\
+    `--slurm` prints a script for Slurm: `bash SCRIPT` submits the shards as an array, and after them their merge."
 )]
 pub(crate) struct Arguments {
     /// The scenario (TOML); its first experiment's rated torques are kept
@@ -52,7 +66,16 @@ pub(crate) struct Arguments {
     /// How many threads; without it one for each core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Where campaign.csv, campaign.md and the figures go
+    /// Make the I-th of N shards alone, counted from 1; `ulna merge` puts them together
+    #[arg(long, value_name = "I/N", conflicts_with = "slurm")]
+    shard: Option<Shard>,
+    /// Print a script for Slurm that makes the campaign in shards
+    #[arg(long)]
+    slurm: bool,
+    /// How many shards the script has; without it as many as take half an hour each, 1000 at most
+    #[arg(long, value_name = "N", requires = "slurm", value_parser = clap::value_parser!(u64).range(1..))]
+    shards: Option<u64>,
+    /// Where campaign.csv, campaign.md and the figures go, or the shards
     #[arg(long, short, value_name = "DIR", default_value = "out")]
     output: PathBuf,
 }
@@ -65,19 +88,47 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     if let Some(seed) = arguments.seed {
         scenario = scenario.with_seed(seed);
     }
+    let cases = scenario.campaign().cases();
+    let shards = arguments.shard.map(Shard::of).or(arguments.shards);
+    if let Some(shards) = shards.filter(|shards| *shards > cases) {
+        bail!("{shards} shards of {cases} cases: there may be as many shards as cases");
+    }
     output::check_folder(&arguments.output)?;
+    if arguments.slurm {
+        let range = 0..cases;
+        let seconds = with_cases(&scenario, |make| Ok(seconds_a_case(&range, make)))?;
+        let script = slurm::Script::new(&scenario, arguments, seconds)?;
+        script
+            .warnings()
+            .iter()
+            .for_each(|text| console::warning(text));
+        write!(out, "{script}")?;
+        return Ok(Verdict::Pass);
+    }
+    if arguments.shard.is_none() && cases > MOST_SUMMED_UP {
+        bail!(
+            "{cases} cases: a run that sums up keeps their rows in memory, {MOST_SUMMED_UP} at most; make the campaign \
+             in shards, with `--shard` or `--slurm`, and put them together with `ulna merge`; `--cases {MOST_SUMMED_UP}` \
+             then sums up the first of them"
+        );
+    }
+    let part = Part::new(&arguments.output, arguments.shard, cases);
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()?;
-    let folder = &arguments.output;
-    let work = Work {
-        scenario: &scenario,
-        arguments,
-    };
+    let keep = arguments.shard.is_none();
+    let work = |make: Make<'_>| make_part(&part, &scenario, keep, make);
     // Held until the figures are there too.
-    let (rows, _lock) = pool.install(|| with_arm(scenario.arm(), work))??;
+    let (rows, _lock) = pool.install(|| with_cases(&scenario, work))?;
+    if arguments.shard.is_some() {
+        for end in ["csv", "json"] {
+            console::note(&format!("wrote {}", part.file(end).display()));
+        }
+        return Ok(Verdict::Pass);
+    }
 
+    let folder = &arguments.output;
     let laws = scenario.campaign().laws();
     let map = HeatMap::new(&rows, laws, scenario.arm().joints().len());
     let task = with_chain_of(scenario.arm(), TaskSize)?;
@@ -114,66 +165,25 @@ impl ForChain for TaskSize {
     }
 }
 
-/// All rows of the campaign, found in the file or made, and the folder that they are in.
-struct Work<'s> {
-    scenario: &'s Scenario,
-    arguments: &'s Arguments,
+/// Does `work` with what makes the scenario's cases.
+fn with_cases<T>(
+    scenario: &Scenario,
+    work: impl FnOnce(Make<'_>) -> anyhow::Result<T> + Send,
+) -> anyhow::Result<T> {
+    with_arm(scenario.arm(), Work { scenario, work })?
 }
 
-impl ForArm for Work<'_> {
-    type Output = anyhow::Result<(Vec<Row>, FolderLock)>;
+struct Work<'s, F> {
+    scenario: &'s Scenario,
+    work: F,
+}
+
+impl<T, F: FnOnce(Make<'_>) -> anyhow::Result<T>> ForArm for Work<'_, F> {
+    type Output = anyhow::Result<T>;
 
     fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
         let campaign = Campaign::new(arm, self.scenario)?;
         let laws = self.scenario.campaign().laws();
-        self.all(&|index| Row::of(&campaign.case(index), laws))
-    }
-}
-
-impl Work<'_> {
-    /// All rows, by `make`: apart from the campaign, so that this is not compiled for each number of joints.
-    fn all(&self, make: &(dyn Fn(u64) -> Row + Sync)) -> anyhow::Result<(Vec<Row>, FolderLock)> {
-        /// So many cases are made before they are written.
-        const CHUNK: u64 = 500;
-        let folder = &self.arguments.output;
-        fs::create_dir_all(folder)
-            .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-        let lock = FolderLock::take(folder)?;
-        let cases = self.scenario.campaign().cases();
-        let identity = Identity::of(self.scenario);
-        let header = row::header(self.scenario.campaign().laws())?;
-        let mut file = CampaignFile::open(folder, cases, header, &identity, make)?;
-        let found = file.rows();
-        if found > 0 {
-            console::note(&format!(
-                "{found} of {cases} cases are in {} already",
-                file.path().display()
-            ));
-        }
-        let clock = Instant::now();
-        let bar = ProgressBar::new(cases).with_position(found);
-        bar.set_style(ProgressStyle::with_template(
-            "{bar:40} {pos}/{len} cases, {per_sec}, {eta} left",
-        )?);
-        for start in (found..cases).step_by(CHUNK as usize) {
-            let chunk = start..(start + CHUNK).min(cases);
-            // In order of the number, whatever thread made them.
-            let rows = chunk.into_par_iter().map(|index| {
-                let row = make(index);
-                bar.inc(1);
-                row
-            });
-            file.append(rows.collect())?;
-        }
-        bar.finish_and_clear();
-        let made = cases - found;
-        if made > 0 {
-            let seconds = clock.elapsed().as_secs_f64();
-            console::note(&format!(
-                "{made} cases in {seconds:.1} s: {:.0} a second",
-                made as f64 / seconds
-            ));
-        }
-        Ok((file.finish()?, lock))
+        (self.work)(&|index| Row::of(&campaign.case(index), laws))
     }
 }

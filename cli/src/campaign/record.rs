@@ -1,4 +1,4 @@
-//! `campaign.json`: which campaign the rows beside it are of, and a hash of them.
+//! `campaign.json`, and a shard's manifest: which campaign the rows beside it are of, which of them, and a hash of them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,12 +7,14 @@ use anyhow::{Context, bail};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use ulna_study::Scenario;
+use ulna_study::experiment::Shard;
 use ulna_study::scenario::{Experiment, ScenarioArm};
 
+use super::part::Part;
 use crate::output::{refuse_special, write_whole};
 
 /// What decides a row beside its number.
-#[derive(Clone, Debug, Deserialize, Serialize)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(super) struct Identity {
     program: String,
     seed: u64,
@@ -51,7 +53,7 @@ impl Identity {
     }
 
     /// What keeps the rows of `other` from standing beside those of this.
-    fn difference(&self, other: &Self) -> Option<String> {
+    pub(super) fn difference(&self, other: &Self) -> Option<String> {
         if self.program != other.program {
             Some(format!(
                 "was made by {}, not {}",
@@ -67,23 +69,71 @@ impl Identity {
     }
 }
 
+/// Which cases of which campaign a shard has. With the campaign's identity it decides every byte of its rows.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub(super) struct ShardRecord {
+    /// How many cases the whole campaign has.
+    pub(super) cases: u64,
+    /// From 1.
+    shard: u64,
+    /// How many shards there are.
+    shards: u64,
+    /// The number of its first case, from 0.
+    first: u64,
+    /// That of its last.
+    last: u64,
+    /// The campaign's laws, in the order of their columns.
+    pub(super) laws: Vec<String>,
+}
+
+impl ShardRecord {
+    /// Of a part of the campaign of `scenario`; `None` for the whole.
+    fn of(part: &Part, scenario: &Scenario) -> Option<Self> {
+        let (shard, range) = (part.shard()?, part.range());
+        let laws = scenario.campaign().laws();
+        Some(Self {
+            cases: part.cases(),
+            shard: shard.number(),
+            shards: shard.of(),
+            first: range.start,
+            last: range.end.checked_sub(1)?,
+            laws: laws.iter().map(|law| law.name().to_owned()).collect(),
+        })
+    }
+
+    /// `None` if what it says of itself is not so of any shard.
+    pub(super) fn shard(&self) -> Option<Shard> {
+        let shard = Shard::new(self.shard, self.shards)?;
+        let range = shard.range(self.cases);
+        let all = range.start == self.first && range.end.checked_sub(1) == Some(self.last);
+        (all && range.start < range.end).then_some(shard)
+    }
+
+    /// How many rows it has when it is complete.
+    pub(super) fn rows(&self) -> u64 {
+        self.last.saturating_sub(self.first).saturating_add(1)
+    }
+}
+
 /// What is kept in the file.
 #[derive(Debug, Deserialize, Serialize)]
 pub(super) struct Record {
     #[serde(flatten)]
-    identity: Identity,
+    pub(super) identity: Identity,
+    #[serde(flatten)]
+    pub(super) shard: Option<ShardRecord>,
     pub(super) rows: u64,
     /// So many of the rows' file, its first line included, are hashed.
     pub(super) bytes: u64,
-    sha256: String,
+    pub(super) sha256: String,
 }
 
 impl Record {
-    /// The one beside the rows in `csv`, which must be of `identity`.
-    pub(super) fn read(folder: &Path, csv: &Path, identity: &Identity) -> anyhow::Result<Self> {
-        let path = file(folder);
-        refuse_special(&path)?;
-        let Ok(text) = fs::read(&path) else {
+    /// That of the rows in `csv`, which must be those of `recorder`.
+    pub(super) fn read(recorder: &Recorder, csv: &Path) -> anyhow::Result<Self> {
+        let path = &recorder.path;
+        refuse_special(path)?;
+        let Ok(text) = fs::read(path) else {
             bail!(
                 "cannot tell which campaign {} is of: {} is not there or cannot be read; {}",
                 csv.display(),
@@ -99,15 +149,37 @@ impl Record {
                 remedy()
             );
         };
+        let identity = &recorder.identity;
         if let Some(difference) = identity.difference(&record.identity) {
             bail!("{} {difference}; {}", csv.display(), remedy());
+        }
+        if recorder.shard != record.shard {
+            let cases = |shard: &Option<ShardRecord>| match shard {
+                Some(shard) => format!("of a campaign of {} cases", shard.cases),
+                None => "no shard".to_owned(),
+            };
+            bail!(
+                "{} is {}, not {}; {}",
+                csv.display(),
+                cases(&record.shard),
+                cases(&recorder.shard),
+                remedy()
+            );
         }
         Ok(record)
     }
 
-    /// Whether `text` is what was hashed.
-    pub(super) fn is_of(&self, text: &[u8]) -> bool {
-        hex(Sha256::new_with_prefix(text)) == self.sha256
+    /// Whether what `hash` took in is what was hashed.
+    pub(super) fn is_of(&self, hash: Sha256) -> bool {
+        hex(hash) == self.sha256
+    }
+
+    /// As the file has it.
+    pub(super) fn text(&self) -> anyhow::Result<Vec<u8>> {
+        let json = serde_json::to_vec_pretty(self);
+        let mut json = json.context("the record of a campaign cannot be written")?;
+        json.push(b'\n');
+        Ok(json)
     }
 }
 
@@ -115,16 +187,19 @@ impl Record {
 pub(super) struct Recorder {
     path: PathBuf,
     identity: Identity,
+    shard: Option<ShardRecord>,
     hash: Sha256,
     rows: u64,
     bytes: u64,
 }
 
 impl Recorder {
-    pub(super) fn new(folder: &Path, identity: Identity) -> Self {
+    /// Of a part of the campaign of `scenario`.
+    pub(super) fn new(part: &Part, scenario: &Scenario) -> Self {
         Self {
-            path: file(folder),
-            identity,
+            path: part.file("json"),
+            identity: Identity::of(scenario),
+            shard: ShardRecord::of(part, scenario),
             hash: Sha256::new(),
             rows: 0,
             bytes: 0,
@@ -138,21 +213,28 @@ impl Recorder {
         self.bytes += text.len() as u64;
     }
 
+    /// Goes on where `record` stands, whose rows were hashed to `hash`.
+    pub(super) fn go_on(&mut self, record: &Record, hash: Sha256) {
+        self.hash = hash;
+        self.rows = record.rows;
+        self.bytes = record.bytes;
+    }
+
+    /// How many rows are recorded.
+    pub(super) fn rows(&self) -> u64 {
+        self.rows
+    }
+
     pub(super) fn write(&self) -> anyhow::Result<()> {
-        let mut json = serde_json::to_vec_pretty(&Record {
+        let record = Record {
             identity: self.identity.clone(),
+            shard: self.shard.clone(),
             rows: self.rows,
             bytes: self.bytes,
             sha256: hex(self.hash.clone()),
-        })
-        .context("the record of a campaign cannot be written")?;
-        json.push(b'\n');
-        write_whole(&self.path, &json)
+        };
+        write_whole(&self.path, &record.text()?)
     }
-}
-
-fn file(folder: &Path) -> PathBuf {
-    folder.join("campaign.json")
 }
 
 /// What to do about rows that cannot be gone on with.
@@ -160,7 +242,7 @@ pub(super) fn remedy() -> &'static str {
     "remove it, or choose another --output"
 }
 
-fn hex(hash: Sha256) -> String {
+pub(super) fn hex(hash: Sha256) -> String {
     let bytes = hash.finalize();
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -1,5 +1,7 @@
 //! [`Row`]: a case as a line of `campaign.csv`.
 
+use std::io::Read;
+
 use anyhow::Context;
 use serde::{Deserialize, Serialize};
 use ulna_study::experiment::{CampaignCase, CampaignOutcome};
@@ -112,21 +114,21 @@ pub(super) fn header(laws: LawSet) -> anyhow::Result<String> {
     Ok(names.collect::<Vec<_>>().join(",") + "\n")
 }
 
-/// The rows of a file with its header, if they are whole and numbered without a gap.
-pub(super) fn read(text: &[u8]) -> anyhow::Result<Vec<Row>> {
-    let mut rows = Vec::new();
-    let mut reader = csv::ReaderBuilder::new()
+/// The rows that `lines` has, those behind a file's header, as they come: numbered without a gap from `first`.
+pub(super) fn read(lines: impl Read, first: u64) -> impl Iterator<Item = anyhow::Result<Row>> {
+    let reader = csv::ReaderBuilder::new()
         .has_headers(false)
-        .from_reader(text);
-    // By the order of the columns: a law's names are no fields. The first line is the header's.
-    for row in reader.deserialize().skip(1) {
-        let row: Row = row?;
-        let number = rows.len() as u64;
-        (row.case.case == number)
-            .then(|| rows.push(row))
-            .context("the cases are not numbered in a row")?;
-    }
-    Ok(rows)
+        .from_reader(lines);
+    // By the order of the columns: a law's names are no fields.
+    reader
+        .into_deserialize()
+        .zip(first..)
+        .map(|(row, number): (Result<Row, _>, _)| {
+            let row = row?;
+            (row.case.case == number)
+                .then_some(row)
+                .context("the cases are not numbered in a row")
+        })
 }
 
 #[cfg(test)]
@@ -162,11 +164,16 @@ mod tests {
                      eq16,eq16_force_error,eq16_max_force_error,eq16_worse_joints,\
                      on_line,on_line_force_error,on_line_max_force_error,on_line_worse_joints\n";
         assert!(text.starts_with(names), "{text}");
-        assert_eq!(read(text.as_bytes()).unwrap(), rows);
-        // A gap, and a line that is cut off.
-        let (head, tail) = text.split_once("\n0,").unwrap();
-        let (_, last) = tail.split_once('\n').unwrap();
-        assert!(read(format!("{head}\n{last}").as_bytes()).is_err());
-        assert!(read(&text.as_bytes()[..text.len() - 30]).is_err());
+        let (_, lines) = text.split_once('\n').unwrap();
+        let all = |lines: &str, first| {
+            let rows: anyhow::Result<Vec<_>> = read(lines.as_bytes(), first).collect();
+            rows.ok()
+        };
+        assert_eq!(all(lines, 0).unwrap(), rows);
+        // A gap, another beginning, and a line that is cut off.
+        let (_, last) = lines.split_once('\n').unwrap();
+        assert!(all(last, 0).is_none() && all(lines, 1).is_none());
+        assert_eq!(all(last, 1).unwrap(), rows[1..]);
+        assert!(all(&lines[..lines.len() - 30], 0).is_none());
     }
 }

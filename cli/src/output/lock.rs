@@ -1,4 +1,4 @@
-//! [`FolderLock`]: one run at a time works in a folder.
+//! [`Lock`]: one run at a time makes the same files in a folder.
 
 use std::fs::{File, TryLockError};
 use std::io::{Read, Write};
@@ -6,28 +6,25 @@ use std::path::Path;
 
 use anyhow::{Context, bail};
 
-use super::target;
+use super::{folder_of, target};
 
 /// Held for as long as this lives; the system gives it back however the program ends.
 ///
 /// The file that it is held on stays: were it removed, one run could hold the removed file and another a new one of the
 /// same name. Without a run that holds it, it is in nobody's way.
-pub(crate) struct FolderLock {
+pub(crate) struct Lock {
     _file: File,
 }
 
-impl FolderLock {
-    const NAME: &str = "campaign.lock";
-
-    /// Takes `folder`, which must be there, or says who has it.
-    pub(crate) fn take(folder: &Path) -> anyhow::Result<Self> {
-        let path = folder.join(Self::NAME);
+impl Lock {
+    /// Takes the file at `path`, whose folder must be there, or says who makes `what` there already.
+    pub(crate) fn take(path: &Path, what: &str) -> anyhow::Result<Self> {
         let mut file = File::options()
             .read(true)
             .write(true)
             .create(true)
             .truncate(false)
-            .open(target(&path)?)
+            .open(target(path)?)
             .with_context(|| format!("cannot open {}", path.display()))?;
         match file.try_lock() {
             Ok(()) => {}
@@ -40,8 +37,8 @@ impl FolderLock {
                     _ => "another process".to_owned(),
                 };
                 bail!(
-                    "{holder} makes a campaign in {}; wait for its end, or choose another --output",
-                    folder.display()
+                    "{holder} makes {what} in {}; wait for its end, or choose another --output",
+                    folder_of(path).display()
                 );
             }
             Err(TryLockError::Error(error)) => {

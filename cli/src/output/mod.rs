@@ -5,13 +5,13 @@ mod stdout;
 mod target;
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use tempfile::NamedTempFile;
 
-pub(crate) use lock::FolderLock;
+pub(crate) use lock::Lock;
 pub(crate) use stdout::Stdout;
 pub(crate) use target::{refuse_special, target};
 
@@ -27,31 +27,29 @@ pub(crate) fn write_new(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
 }
 
 /// A file that is written, but has not got its name yet. Dropped, it leaves nothing.
-struct Staged {
+pub(crate) struct Staged {
     file: NamedTempFile,
     path: PathBuf,
     target: PathBuf,
 }
 
 impl Staged {
-    fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
-        let target = target(path)?;
-        let written = temporary(&target).and_then(|file| {
-            // The file itself: errors of `NamedTempFile` name it, which nobody has asked for.
-            let mut inner = file.as_file();
-            inner.write_all(bytes)?;
-            // A file system may find out only now that it is full.
-            inner.sync_all()?;
-            Ok(file)
-        });
-        Ok(Self {
-            file: written.with_context(|| cannot_write(path))?,
-            path: path.to_path_buf(),
-            target,
-        })
+    pub(crate) fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
+        let mut growing = Growing::new(path)?;
+        growing.add(bytes)?;
+        growing.finish()
     }
 
-    fn persist(self) -> anyhow::Result<()> {
+    /// A copy of the file at `from`, which may be larger than the memory.
+    pub(crate) fn copy(path: &Path, from: &Path) -> anyhow::Result<Self> {
+        let mut growing = Growing::new(path)?;
+        let copied =
+            fs::File::open(from).and_then(|mut from| io::copy(&mut from, &mut growing.out));
+        copied.with_context(|| cannot_write(path))?;
+        growing.finish()
+    }
+
+    pub(crate) fn persist(self) -> anyhow::Result<()> {
         let Self { file, path, target } = self;
         file.persist(target)
             .map(drop)
@@ -66,6 +64,54 @@ impl Staged {
             .map(drop)
             .map_err(|failed| failed.error)
             .with_context(|| cannot_write(&path))
+    }
+}
+
+/// A file that is written piece by piece, and has not got its name yet. Dropped, it leaves nothing.
+pub(crate) struct Growing {
+    // The file itself: errors of `NamedTempFile` name it, which nobody has asked for.
+    out: BufWriter<fs::File>,
+    file: NamedTempFile,
+    path: PathBuf,
+    target: PathBuf,
+}
+
+impl Growing {
+    /// Nothing yet of what `path` is to have.
+    pub(crate) fn new(path: &Path) -> anyhow::Result<Self> {
+        let target = target(path)?;
+        let opened = temporary(&target).and_then(|file| {
+            let out = BufWriter::with_capacity(1 << 20, file.as_file().try_clone()?);
+            Ok((out, file))
+        });
+        let (out, file) = opened.with_context(|| cannot_write(path))?;
+        Ok(Self {
+            out,
+            file,
+            path: path.to_path_buf(),
+            target,
+        })
+    }
+
+    /// The next piece.
+    pub(crate) fn add(&mut self, bytes: &[u8]) -> anyhow::Result<()> {
+        let added = self.out.write_all(bytes);
+        added.with_context(|| cannot_write(&self.path))
+    }
+
+    /// There is no more to come.
+    pub(crate) fn finish(mut self) -> anyhow::Result<Staged> {
+        // A file system may find out only now that it is full.
+        let written = self
+            .out
+            .flush()
+            .and_then(|()| self.file.as_file().sync_all());
+        written.with_context(|| cannot_write(&self.path))?;
+        Ok(Staged {
+            file: self.file,
+            path: self.path,
+            target: self.target,
+        })
     }
 }
 

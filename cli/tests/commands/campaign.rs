@@ -473,7 +473,7 @@ fn a_wrong_command_line_exits_with_2() {
     for arguments in [
         &["campaign"][..],
         &["campaign", "x.toml", "--cases", "0"],
-        &["campaign", "x.toml", "--cases", "1000001"],
+        &["campaign", "x.toml", "--cases", "1000000000001"],
         &["campaign", "x.toml", "--threads", "0"],
     ] {
         ulna(arguments).code(2).stdout("");

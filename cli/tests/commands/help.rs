@@ -8,9 +8,11 @@ use crate::support::{examples, root, stderr, stdout, ulna};
 #[test]
 fn every_example_works() {
     // What an older version of the program has left there, this one would not go on with.
-    let campaign = root().join("target/campaign");
-    if campaign.exists() {
-        fs::remove_dir_all(campaign).unwrap();
+    for name in ["campaign", "shards"] {
+        let folder = root().join("target").join(name);
+        if folder.exists() {
+            fs::remove_dir_all(folder).unwrap();
+        }
     }
     for command in [
         "",
@@ -20,6 +22,7 @@ fn every_example_works() {
         "verify",
         "cost",
         "campaign",
+        "merge",
         "help",
         "completions",
         "man",

@@ -13,5 +13,7 @@ mod long_arms;
 mod methods;
 mod new;
 mod reproduce;
+mod shards;
+mod slurm;
 mod support;
 mod verify;

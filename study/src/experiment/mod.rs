@@ -15,6 +15,7 @@ mod mechanics;
 mod plan_steps;
 mod rollout;
 mod runner;
+mod shard;
 mod simulated;
 mod sweep;
 mod trial;
@@ -40,6 +41,7 @@ pub use mechanics::{
 pub use plan_steps::{PlanSteps, PlannedTorques, ProfileSteps, TorqueStep};
 pub use rollout::{Rollout, Series};
 pub use runner::ExperimentRunner;
+pub use shard::Shard;
 pub use simulated::{BrakeImpulse, SimulatedLock, SimulatedRun};
 pub use sweep::{Felt, Rotors, Sweep, SweepPoint};
 pub use trial::{CampaignOutcome, after_only};

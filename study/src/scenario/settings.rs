@@ -57,7 +57,7 @@ pub struct CampaignSettings {
 }
 
 impl CampaignSettings {
-    /// How many cases there may be: their rows are in memory together, half a kilobyte each.
+    /// How many cases there may be. Whoever keeps their rows in memory may have to take fewer.
     pub const CASES: RangeInclusive<u64> = 1..=MAX_CASES;
 
     /// How many cases.

@@ -145,8 +145,8 @@ pub(in crate::scenario) const MAX_STUDIES: usize = 100;
 pub(in crate::scenario) const MAX_COEFFICIENTS: usize = 8;
 /// The most figures in a scenario: all are in memory before any is written.
 pub(in crate::scenario) const MAX_FIGURES: usize = 100;
-/// The most cases: their rows are in memory together, 0.2 KB each.
-pub(in crate::scenario) const MAX_CASES: u64 = 1_000_000;
+/// The most cases: more than all machines that anybody has make in a year.
+pub(in crate::scenario) const MAX_CASES: u64 = 1_000_000_000_000;
 /// The most failure times of a campaign: each is a column of the figure.
 pub(in crate::scenario) const MAX_FAILURE_TIMES: u64 = 1000;
 /// The most failure times that laws are assessed at: each is looked at with every lock, and so are all pairs of joints.
