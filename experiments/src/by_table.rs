@@ -4,7 +4,7 @@ use ulna::SerialChain;
 use ulna_jit::{Error, Jit};
 use ulna_table::{JointCountError, Model};
 
-use crate::{Subject, subject};
+use crate::{Subject, subject, textbook};
 
 /// The most joints of an arm that experiments are compiled for.
 pub const MAX_JOINTS: usize = 12;
@@ -50,7 +50,7 @@ pub fn by_table_of<const N: usize>(model: &Model) -> Result<ByTable, JointCountE
             no_code: None,
         },
         Err(error) => ByTable {
-            subject: subject(Box::new(chain), chain),
+            subject: textbook(chain),
             no_code: Some(error),
         },
     })

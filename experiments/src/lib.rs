@@ -43,4 +43,4 @@ pub use own::operation::{Assessed, Found, Locking, Operation, Search};
 pub use own::plan::{Plan, StateList, state_at};
 pub use own::simulation::{Servo, Simulated, SimulatedImpact, SimulatedSample, Span};
 pub use scenario::{Cases, Experiments, Failures};
-pub use subject::{Held, Subject, subject};
+pub use subject::{Held, Subject, subject, textbook};

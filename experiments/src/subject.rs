@@ -27,6 +27,13 @@ pub trait Subject: Send + Sync {
     /// The rows of the Jacobian that make up its task.
     fn task(&self) -> TaskRows;
 
+    /// The arm as data, every number of it: arms of the same text are the same arm, whatever computes them.
+    fn data(&self) -> String;
+
+    /// Whether the textbook computes it. Otherwise it is generated code, by the compiler or made of the table at run time, which
+    /// have the same formulas and give the same bits.
+    fn is_textbook(&self) -> bool;
+
     /// The arm as a mechanism, at each failure time of `scenario`.
     ///
     /// # Errors
@@ -116,18 +123,32 @@ pub trait Subject: Send + Sync {
     ) -> Result<Simulated, ExperimentError>;
 }
 
-/// `arm`, whose `chain` is the same arm as data, for experiments. Compiled where it is called, as the caller is.
+/// `arm`, generated code whose `chain` is the same arm as data, for experiments. Compiled where it is called, as the caller is.
 pub fn subject<const N: usize>(
     arm: Box<dyn Arm<N> + Send + Sync>,
     chain: SerialChain<N>,
 ) -> Box<dyn Subject> {
-    Box::new(Held { arm, chain })
+    Box::new(Held {
+        arm,
+        chain,
+        is_textbook: false,
+    })
+}
+
+/// The arm `chain`, computed by the textbook, for experiments. Compiled where it is called, as the caller is.
+pub fn textbook<const N: usize>(chain: SerialChain<N>) -> Box<dyn Subject> {
+    Box::new(Held {
+        arm: Box::new(chain),
+        chain,
+        is_textbook: true,
+    })
 }
 
 /// An arm of `N` joints.
 pub struct Held<const N: usize> {
     arm: Box<dyn Arm<N> + Send + Sync>,
     chain: SerialChain<N>,
+    is_textbook: bool,
 }
 
 impl<const N: usize> Held<N> {
@@ -143,6 +164,14 @@ impl<const N: usize> Subject for Held<N> {
 
     fn task(&self) -> TaskRows {
         self.chain.task
+    }
+
+    fn data(&self) -> String {
+        format!("{:?}", self.chain)
+    }
+
+    fn is_textbook(&self) -> bool {
+        self.is_textbook
     }
 
     fn mechanics(&self, scenario: &Scenario) -> Result<Vec<LockMechanics>, ExperimentError> {

@@ -1,35 +1,29 @@
 //! `ulna campaign`: a scenario with every joint failing at many times, varied at random.
 
-mod file;
-mod hashed;
-mod make;
 pub(crate) mod merge;
-mod part;
-mod record;
-mod row;
+mod pace;
 mod slurm;
 mod summary;
+mod watch;
 
 use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
-use ulna::SerialChain;
+use ulna_campaign::{Campaign, Part, make};
 use ulna_study::Scenario;
-use ulna_study::experiment::{AnyArm, Campaign, Shard};
+use ulna_study::experiment::Shard;
 use ulna_study::scenario::CampaignSettings;
 
-use crate::arms::{ForArm, GENERATED, with_arm, with_chain_of};
+use crate::arms::{self, GENERATED};
 use crate::figures::{self, HeatMap};
-use crate::joints::ForChain;
 use crate::output::{self, Files};
 use crate::{Verdict, console};
-use make::{Make, make_part, seconds_a_case};
-use part::Part;
-pub(crate) use row::{LawCells, Row};
+use pace::seconds_a_case;
 use summary::Summary;
 pub(crate) use summary::median;
+use watch::Bar;
 
 /// The most cases of a run that sums up: their rows are in memory together, with what is counted of them 0.8 KB each with
 /// six laws.
@@ -95,8 +89,8 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     }
     output::check_folder(&arguments.output)?;
     if arguments.slurm {
-        let range = 0..cases;
-        let seconds = with_cases(&scenario, |make| Ok(seconds_a_case(&range, make)))?;
+        let arm = arms::subject(scenario.arm())?;
+        let seconds = seconds_a_case(&Campaign::new(&*arm, &scenario)?);
         let script = slurm::Script::new(&scenario, arguments, seconds)?;
         script
             .warnings()
@@ -117,10 +111,13 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()?;
+    let arm = arms::subject(scenario.arm())?;
+    let campaign = Campaign::new(&*arm, &scenario)?;
     let keep = arguments.shard.is_none();
-    let work = |make: Make<'_>| make_part(&part, &scenario, keep, make);
-    // Held until the figures are there too.
-    let (rows, _lock) = pool.install(|| with_cases(&scenario, work))?;
+    let bar = Bar::new()?;
+    // Its lock is held until the figures are there too.
+    let made = pool.install(|| make(&part, &campaign, keep, &bar))?;
+    bar.ends(made.made);
     if arguments.shard.is_some() {
         for end in ["csv", "json"] {
             console::note(&format!("wrote {}", part.file(end).display()));
@@ -129,10 +126,10 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     }
 
     let folder = &arguments.output;
+    let rows = &made.rows;
     let laws = scenario.campaign().laws();
-    let map = HeatMap::new(&rows, laws, scenario.arm().joints().len());
-    let task = with_chain_of(scenario.arm(), TaskSize)?;
-    let summary = Summary::new(&scenario, &rows, task);
+    let map = HeatMap::new(rows, laws, scenario.arm().joints().len());
+    let summary = Summary::new(&scenario, rows, arm.task().iter().count());
     writeln!(out, "{}", summary.console())?;
     let footer = format!(
         "arm {}, scenario {}, campaign of {} cases, seed {}",
@@ -152,38 +149,4 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         console::note(&format!("wrote {}", path.display()));
     }
     Ok(Verdict::Pass)
-}
-
-/// How many components the arm's task has.
-struct TaskSize;
-
-impl ForChain for TaskSize {
-    type Output = usize;
-
-    fn run<const N: usize>(self, chain: &SerialChain<N>) -> usize {
-        chain.task.iter().count()
-    }
-}
-
-/// Does `work` with what makes the scenario's cases.
-fn with_cases<T>(
-    scenario: &Scenario,
-    work: impl FnOnce(Make<'_>) -> anyhow::Result<T> + Send,
-) -> anyhow::Result<T> {
-    with_arm(scenario.arm(), Work { scenario, work })?
-}
-
-struct Work<'s, F> {
-    scenario: &'s Scenario,
-    work: F,
-}
-
-impl<T, F: FnOnce(Make<'_>) -> anyhow::Result<T>> ForArm for Work<'_, F> {
-    type Output = anyhow::Result<T>;
-
-    fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
-        let campaign = Campaign::new(arm, self.scenario)?;
-        let laws = self.scenario.campaign().laws();
-        (self.work)(&|index| Row::of(&campaign.case(index), laws))
-    }
 }

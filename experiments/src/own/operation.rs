@@ -214,6 +214,6 @@ pub(crate) fn operation<const N: usize>(
     };
     let force = |time| locking.force.at(time);
     let failure = locking.failure()?;
-    let operation = search::Operation::new(arm, motion, &force, &failure, &options)?;
+    let operation = search::Operation::new(arm, motion, force, &failure, &options)?;
     Ok(Box::new(operation))
 }
