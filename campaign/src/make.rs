@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
+use rayon::ThreadPool;
 use rayon::prelude::*;
 use ulna_files::Lock;
 
@@ -72,8 +73,8 @@ impl Chunk {
     }
 }
 
-/// Makes what there is not of `part`, in its folder, in the pool of threads that this is called in; all rows are kept in memory if they
-/// are to be returned, and otherwise none.
+/// Makes what there is not of `part`, in its folder, on the threads of `pool`; all rows are kept in memory if they are to be returned,
+/// and otherwise none. What `watch` hears between chunks of cases, it hears on the thread that calls this.
 ///
 /// # Errors
 /// When another run makes the same part, when rows that are there are those of another campaign or have been changed, when files
@@ -82,6 +83,7 @@ pub fn make(
     part: &Part,
     campaign: &Campaign<'_>,
     keep: bool,
+    pool: &ThreadPool,
     watch: &dyn Watch,
 ) -> anyhow::Result<Made> {
     let folder = part.folder();
@@ -99,7 +101,7 @@ pub fn make(
         let clock = Instant::now();
         let numbers = chunk.range(start, range.end);
         start = numbers.end;
-        file.append(rows(campaign, numbers, watch))?;
+        file.append(pool.install(|| rows(campaign, numbers, watch)))?;
         watch.written(start - range.start)?;
         chunk = chunk.next(clock.elapsed());
     }

@@ -4,6 +4,7 @@ use std::fs;
 use std::time::Instant;
 
 use anyhow::{Context, bail};
+use rayon::ThreadPool;
 use sha2::{Digest, Sha256};
 use ulna_files::{Lock, Staged, rows};
 
@@ -22,11 +23,16 @@ pub struct Shipped {
 }
 
 impl Shipped {
-    /// Makes `part` in memory, in the pool of threads that this is called in. The part's folder has no part in it.
+    /// Makes `part` in memory, on the threads of `pool`. The part's folder has no part in it.
     ///
     /// # Errors
     /// When `watch` stops it.
-    pub fn make(part: &Part, campaign: &Campaign<'_>, watch: &dyn Watch) -> anyhow::Result<Self> {
+    pub fn make(
+        part: &Part,
+        campaign: &Campaign<'_>,
+        pool: &ThreadPool,
+        watch: &dyn Watch,
+    ) -> anyhow::Result<Self> {
         let range = part.range();
         let mut recorder = Recorder::new(part, campaign);
         let mut all = row::header(campaign.laws())?.into_bytes();
@@ -38,7 +44,8 @@ impl Shipped {
             let numbers = chunk.range(start, range.end);
             let count = numbers.end - numbers.start;
             start = numbers.end;
-            let text = rows::lines(make_rows(campaign, numbers, watch))?;
+            let rows = pool.install(|| make_rows(campaign, numbers, watch));
+            let text = rows::lines(rows)?;
             recorder.add(text.as_bytes(), count);
             all.extend_from_slice(text.as_bytes());
             watch.written(start - range.start)?;

@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use rayon::ThreadPool;
 use ulna_campaign::{Part, Shipped, Watch};
 use ulna_experiments::Subject;
 use ulna_files::Lock;
@@ -45,18 +44,16 @@ impl Campaign {
         Ok(Part::new(folder, shard.transpose()?, cases))
     }
 
-    /// Does `work` with the campaign, without Python's lock, on so many threads.
+    /// Does `work` with the campaign, without Python's lock.
     fn with<T: Send>(
         &self,
         py: Python<'_>,
-        threads: Option<usize>,
         work: impl FnOnce(&ulna_campaign::Campaign<'_>) -> anyhow::Result<T> + Send,
     ) -> PyResult<T> {
-        let pool: Arc<ThreadPool> = pool(resolved(threads))?;
         let done = py.detach(|| {
             let campaign = ulna_campaign::Campaign::new(&*self.subject, &self.scenario)
                 .map_err(Failed::Impossible)?;
-            pool.install(|| work(&campaign)).map_err(Failed::Files)
+            work(&campaign).map_err(Failed::Files)
         });
         done.map_err(Failed::exception)
     }
@@ -85,7 +82,8 @@ fn in_python(text: &str) -> String {
     text.replace("--output", "output")
 }
 
-/// Tells Python how far it is, and hears from it that it is to stop.
+/// Tells Python how far it is, and hears from it that it is to stop. Signals such as Ctrl-C only the main thread hears, if that is
+/// who called.
 struct Told<'a>(&'a Py<PyAny>);
 
 impl Watch for Told<'_> {
@@ -160,17 +158,16 @@ impl Campaign {
         told: Py<PyAny>,
     ) -> PyResult<u64> {
         let part = self.part(&folder, shard)?;
-        self.with(py, threads, |campaign| {
-            Ok(ulna_campaign::make(&part, campaign, false, &Told(&told))?.made)
+        let pool = pool(resolved(threads))?;
+        self.with(py, |campaign| {
+            Ok(ulna_campaign::make(&part, campaign, false, &pool, &Told(&told))?.made)
         })
     }
 
     /// Whether a part is whole in `folder`, and good.
     fn is_there(&self, py: Python<'_>, folder: PathBuf, shard: Numbers) -> PyResult<bool> {
         let part = self.part(&folder, shard)?;
-        self.with(py, Some(1), |campaign| {
-            ulna_campaign::is_there(&part, campaign)
-        })
+        self.with(py, |campaign| ulna_campaign::is_there(&part, campaign))
     }
 
     /// A shard's rows and manifest, for another machine's folder.
@@ -183,8 +180,9 @@ impl Campaign {
         told: Py<PyAny>,
     ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>)> {
         let part = self.part(Path::new(""), Some((number, of)))?;
-        let shipped = self.with(py, threads, |campaign| {
-            Shipped::make(&part, campaign, &Told(&told))
+        let pool = pool(resolved(threads))?;
+        let shipped = self.with(py, |campaign| {
+            Shipped::make(&part, campaign, &pool, &Told(&told))
         })?;
         Ok((
             PyBytes::new(py, &shipped.rows),
@@ -204,7 +202,7 @@ impl Campaign {
     ) -> PyResult<()> {
         let part = self.part(&folder, Some((number, of)))?;
         let shipped = Shipped { rows, record };
-        self.with(py, Some(1), |campaign| shipped.store(&part, campaign))
+        self.with(py, |campaign| shipped.store(&part, campaign))
     }
 
     /// Takes `folder` for itself, which is made if need be.

@@ -10,7 +10,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from . import _ulna
+from . import _ray, _ulna
 from ._progress import Report, reporting
 from ._scenario import Scenario
 
@@ -94,8 +94,7 @@ def campaign(
     folder = Path(output)
     if engine == "ray":
         # Before anything is made: it may not be there.
-        from . import _ray
-
+        _ray.library()
         shards = _ray.shards(native, shards)
     with reporting(native.cases, progress) as report:
         if shards is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import logging
 import os
 from collections.abc import Iterator
@@ -15,13 +16,6 @@ from . import _ulna
 from ._progress import Report
 from ._scenario import Scenario
 
-try:
-    import ray
-except ImportError as error:
-    raise ModuleNotFoundError(
-        f'engine="ray" takes Ray, which is not installed here ({error}): `pip install ray`, or `pip install "ulna[ray]"`'
-    ) from error
-
 #: A shard is made so many times again when its worker is lost: by then it is the shard that loses workers.
 RETRIES = 10
 #: The most bytes of a shard's rows: they are in the memory of a worker and of this process.
@@ -32,6 +26,21 @@ MOST_CASES = 50_000
 LEAST_CASES = 1_000
 #: Where there are no more cases than that, so many shards share them evenly among workers.
 SHARDS = 256
+
+
+def library() -> Any:
+    """Ray itself.
+
+    Raises:
+        ModuleNotFoundError: it is not installed.
+    """
+    try:
+        # By its name, so that nobody who has not installed it misses its types.
+        return importlib.import_module("ray")
+    except ImportError as error:
+        raise ModuleNotFoundError(
+            f'engine="ray" takes Ray, which is not installed here ({error}): `pip install ray`, or `pip install "ulna[ray]"`'
+        ) from error
 
 
 def shards(native: _ulna.Campaign, asked: int | None) -> int:
@@ -69,8 +78,9 @@ def make(
     report.cases(done)
     if not missing:
         return 0
+    ray = library()
     task = (*scenario._native.state, native.cases, native.seed)
-    with _connected(threads, address):
+    with _connected(ray, threads, address):
         function = ray.remote(_shard)
         running: dict[Any, int] = {}
         todo = iter(missing)
@@ -83,18 +93,18 @@ def make(
                 running[options.remote(*task, number, shards)] = number
 
         try:
-            start(_in_flight())
+            start(_in_flight(ray))
             while running:
                 # Not for ever, so that Ctrl-C is heard.
                 finished, _ = ray.wait(list(running), num_returns=1, timeout=1.0)
                 for reference in finished:
                     number = running.pop(reference)
-                    native.store(folder, number, shards, *_result(reference, number, shards))
+                    native.store(folder, number, shards, *_result(ray, reference, number, shards))
                     done += native.size(number, shards)
                     missing.remove(number)
                     report.shards(shards - len(missing), shards)
                     report.cases(done)
-                start(_in_flight() - len(running))
+                start(_in_flight(ray) - len(running))
         finally:
             for reference in running:
                 ray.cancel(reference, force=True)
@@ -112,7 +122,7 @@ def _campaign(text: str, source: Path, table: str, cases: int, seed: int) -> _ul
     return _ulna.Campaign(_ulna.restore_scenario(text, source, table), cases, seed)
 
 
-def _result(reference: Any, number: int, shards: int) -> tuple[bytes, bytes]:
+def _result(ray: Any, reference: Any, number: int, shards: int) -> tuple[bytes, bytes]:
     try:
         result: tuple[bytes, bytes] = ray.get(reference)
         return result
@@ -126,13 +136,13 @@ def _result(reference: Any, number: int, shards: int) -> tuple[bytes, bytes]:
         ) from error
 
 
-def _in_flight() -> int:
+def _in_flight(ray: Any) -> int:
     """So many tasks are given out at a time: every core has one, and the next is ready. A cluster may grow meanwhile."""
     return 2 * max(1, int(ray.cluster_resources().get("CPU", 1)))
 
 
 @contextmanager
-def _connected(threads: int | None, address: str | None) -> Iterator[None]:
+def _connected(ray: Any, threads: int | None, address: str | None) -> Iterator[None]:
     """Ray, started or connected to unless it is already."""
     if ray.is_initialized():
         yield
@@ -142,6 +152,8 @@ def _connected(threads: int | None, address: str | None) -> Iterator[None]:
         options["address"] = address
     elif not os.environ.get("RAY_ADDRESS"):
         options.update(num_cpus=threads, include_dashboard=False)
+        # Of one that somebody else has started, it is for them to say.
+        os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
     ray.init(**options)
     try:
         yield

@@ -116,7 +116,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     let keep = arguments.shard.is_none();
     let bar = Bar::new()?;
     // Its lock is held until the figures are there too.
-    let made = pool.install(|| make(&part, &campaign, keep, &bar))?;
+    let made = make(&part, &campaign, keep, &pool, &bar)?;
     bar.ends(made.made);
     if arguments.shard.is_some() {
         for end in ["csv", "json"] {
