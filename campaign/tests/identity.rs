@@ -8,7 +8,7 @@ use ulna_experiments::{Subject, by_table_of, textbook};
 use ulna_study::Scenario;
 use ulna_study::scenario::ScenarioArm;
 
-const CASES: u64 = 14;
+const CASES: u64 = 3;
 
 fn scenario() -> Scenario {
     let text = include_str!("../../scenarios/paper_like.toml");
