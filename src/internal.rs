@@ -6,6 +6,6 @@ pub use crate::arm::payload::{Carried, admit, carry};
 pub use crate::arm::quantity::Quantity;
 pub use crate::kernels::real::Part;
 pub use crate::kernels::scalar as methods;
-pub use crate::kernels::sines::sin_cos_all;
+pub use crate::kernels::simd::{EightSines, eight_sines};
 pub use crate::proof::calls::{call, numbers};
 pub use crate::proof::random;

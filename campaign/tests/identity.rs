@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ulna::Instructions;
 use ulna_campaign::{Campaign, Row};
-use ulna_experiments::{Subject, by_table_of, textbook};
+use ulna_experiments::{CompiledFor, Copies, Subject, by_table};
 use ulna_study::Scenario;
 use ulna_study::scenario::ScenarioArm;
 
@@ -27,22 +27,20 @@ fn rows_of_one_identity_are_the_same_bits_and_others_may_not_be() {
     let ScenarioArm::Table { model, .. } = scenario.arm() else {
         panic!("{:?}", scenario.arm());
     };
-    let made_now = || by_table_of::<7>(model).unwrap().subject;
+    let made_now = || by_table(model).unwrap().subject;
     let own = made_now();
     let own = Campaign::new(&*own, &scenario).unwrap();
     let expected = rows(&own);
 
     // Compiled by rustc.
-    let compiled: Box<dyn Subject> = ulna_experiments::subject(
-        Box::new(ulna_generated::Ssrms),
-        ulna_generated::Ssrms::CHAIN,
-    );
+    let compiled: Box<dyn Subject> =
+        Copies::subject(Box::new(ulna_generated::Ssrms), ulna_generated::Ssrms::CHAIN);
     let compiled = Campaign::new(&*compiled, &scenario).unwrap();
     assert_eq!(compiled.identity(), own.identity());
     assert!(rows(&compiled) == expected);
 
     // The textbook.
-    let book = textbook(ulna_generated::Ssrms::CHAIN);
+    let book = Copies::textbook(ulna_generated::Ssrms::CHAIN);
     let book = Campaign::new(&*book, &scenario).unwrap();
     let difference = own.identity().difference(book.identity()).unwrap();
     assert!(difference.contains("textbook"), "{difference}");

@@ -16,7 +16,6 @@ mod figures;
 mod generate;
 mod help;
 mod import;
-mod joints;
 mod man;
 mod methods;
 mod new;

@@ -21,26 +21,28 @@
 //!
 //! # Where to go
 //!
-//! - [`by_table`]: the arm of a table, up to [`MAX_JOINTS`] joints; [`subject`]: any [`Arm`](ulna::Arm), with its number of joints in its type.
+//! - [`by_table`]: the arm of a table, up to [`MAX_JOINTS`] joints; [`CompiledFor::subject`] of [`Copies`]: any [`Arm`](ulna::Arm) of as many.
 //! - [`Subject`]: what can be done with it. Of a scenario: its [`Experiments`], its [`Cases`] (a campaign), its [`Failures`] (an assessment).
 //!   Of one's own: [`Subject::plan`], [`Subject::lock_impact`], [`Subject::cycle`], [`Subject::operation`] and its searches, [`Subject::simulate`].
 //!
 //! # Inside
 //!
 //! Experiments are compiled for each number of joints, and here that is done for all of them: the crate is there so that it is done once,
-//! with as few optimizations as its speed can bear (`Cargo.toml` of the workspace), whatever changes in the program.
+//! for arms of tables and compiled arms alike, whatever changes in the program.
 
 mod by_table;
+mod copies;
 mod lists;
 mod own;
 mod scenario;
 mod subject;
 
-pub use by_table::{ByTable, MAX_JOINTS, by_table, by_table_of};
+pub use by_table::ByTable;
+pub use copies::{CompiledFor, Copies, MAX_JOINTS, by_table};
 pub use own::control::{ControlCycle, FreeTorqueList, Law, Settings};
 pub use own::impact::{JointLoadList, LockImpact};
 pub use own::operation::{Assessed, Found, Locking, Operation, Search};
 pub use own::plan::{Plan, StateList, state_at};
 pub use own::simulation::{Servo, Simulated, SimulatedImpact, SimulatedSample, Span};
 pub use scenario::{Cases, Experiments, Failures};
-pub use subject::{Held, Subject, subject, textbook};
+pub use subject::Subject;

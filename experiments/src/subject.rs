@@ -123,32 +123,12 @@ pub trait Subject: Send + Sync {
     ) -> Result<Simulated, ExperimentError>;
 }
 
-/// `arm`, generated code whose `chain` is the same arm as data, for experiments. Compiled where it is called, as the caller is.
-pub fn subject<const N: usize>(
-    arm: Box<dyn Arm<N> + Send + Sync>,
-    chain: SerialChain<N>,
-) -> Box<dyn Subject> {
-    Box::new(Held {
-        arm,
-        chain,
-        is_textbook: false,
-    })
-}
-
-/// The arm `chain`, computed by the textbook, for experiments. Compiled where it is called, as the caller is.
-pub fn textbook<const N: usize>(chain: SerialChain<N>) -> Box<dyn Subject> {
-    Box::new(Held {
-        arm: Box::new(chain),
-        chain,
-        is_textbook: true,
-    })
-}
-
 /// An arm of `N` joints.
-pub struct Held<const N: usize> {
-    arm: Box<dyn Arm<N> + Send + Sync>,
-    chain: SerialChain<N>,
-    is_textbook: bool,
+pub(crate) struct Held<const N: usize> {
+    pub(crate) arm: Box<dyn Arm<N> + Send + Sync>,
+    /// The same as data, which knows where its links are.
+    pub(crate) chain: SerialChain<N>,
+    pub(crate) is_textbook: bool,
 }
 
 impl<const N: usize> Held<N> {

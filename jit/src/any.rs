@@ -9,7 +9,7 @@ use ulna_codegen::Compiled;
 use ulna_table::Model;
 
 use crate::host::Host;
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, MAX_PARTS};
 use crate::{CallError, Error, shape};
 
 /// An arm's methods as machine code, by method and slices, for who learns the number of joints at run time.
@@ -252,14 +252,20 @@ struct Prepared<'a> {
 impl Prepared<'_> {
     fn run(&self, arm: &AnyJit, arguments: &[&[f64]], result: &mut [f64]) {
         result.fill(0.0);
-        let mut parts: [&mut [f64]; 3] = Default::default();
+        let mut parts: [&mut [f64]; MAX_PARTS] = Default::default();
         let mut rest = result;
         for (part, length) in parts.iter_mut().zip(self.lengths) {
             (*part, rest) = rest.split_at_mut(*length);
         }
         let parts = &mut parts[..self.lengths.len()];
-        self.kernel
-            .run(arm.model(), arm.parameters(), arguments, parts);
+        let (model, payload) = (arm.model(), arm.parameters());
+        match *arguments {
+            [a] => self.kernel.run(model, payload, [a], parts),
+            [a, b] => self.kernel.run(model, payload, [a, b], parts),
+            [a, b, c] => self.kernel.run(model, payload, [a, b, c], parts),
+            [a, b, c, d] => self.kernel.run(model, payload, [a, b, c, d], parts),
+            _ => {}
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use ulna::{Arm, Method, Payload, PayloadError, SerialChain, TaskRows};
 use ulna_codegen::Compiled;
 use ulna_table::{JointCountError, Model};
 
+use crate::kernel::{Kernel, MAX_PARTS};
 use crate::{AnyJit, Error};
 
 /// An arm of `N` joints whose methods are machine code made at run time; what is not compiled runs by the formulas of [`SerialChain`].
@@ -79,12 +80,11 @@ impl<const N: usize> Jit<N> {
         Ok(Self { any, chain })
     }
 
-    /// A method's result, if the method is compiled.
-    #[inline]
-    fn run<T: Quantity>(&self, method: Method, arguments: &[&[f64]]) -> Option<T> {
-        let kernel = self.any.kernel(method)?;
+    /// A method's result by its code.
+    #[inline(always)]
+    fn run<T: Quantity, const A: usize>(&self, kernel: &Kernel, arguments: [&[f64]; A]) -> T {
         let mut result = T::zero();
-        let mut parts: [&mut [f64]; 3] = Default::default();
+        let mut parts: [&mut [f64]; MAX_PARTS] = Default::default();
         let mut count = 0;
         result.give_parts(&mut |part| {
             parts[count] = part;
@@ -92,7 +92,7 @@ impl<const N: usize> Jit<N> {
         });
         let parts = &mut parts[..count];
         kernel.run(self.any.model(), self.any.parameters(), arguments, parts);
-        Some(result)
+        result
     }
 }
 
@@ -113,8 +113,8 @@ macro_rules! define_methods {
 
             $(
                 fn $method(&self, $($argument: &ulna::argument_type!([N] $argument)),+) -> $output {
-                    match self.run(Method::$variant, &[$($argument.as_slice()),+]) {
-                        Some(result) => result,
+                    match self.any.kernel(Method::$variant) {
+                        Some(kernel) => self.run(kernel, [$($argument.as_slice()),+]),
                         None => self.chain.$method($($argument),+),
                     }
                 }

@@ -22,14 +22,8 @@ const SETTINGS: &[(&str, &str)] = &[
     // A long program's frame may be longer than the page that guards a stack.
     ("enable_probestack", "true"),
     ("probestack_strategy", "inline"),
-    (
-        "enable_verifier",
-        if cfg!(debug_assertions) {
-            "true"
-        } else {
-            "false"
-        },
-    ),
+    // Programs are checked while they are translated.
+    ("enable_verifier", "false"),
 ];
 
 impl Host {

@@ -7,15 +7,16 @@ use ulna_codegen::Program;
 use ulna_table::Model;
 
 use crate::Error;
-use crate::angles::Angles;
 use crate::code::{Code, MAX_INPUTS, MAX_RESULTS};
 use crate::host::Host;
-use crate::translate::{ARGUMENTS, CONSTANTS, PAYLOAD, SINES, translate};
+use crate::translate::{ARGUMENTS, CONSTANTS, PAYLOAD, translate};
+
+/// The most parts that a result has.
+pub(crate) const MAX_PARTS: usize = MAX_RESULTS - 1;
 
 /// The code of a method.
 #[derive(Debug)]
 pub(crate) struct Kernel {
-    angles: Angles,
     constants: Vec<f64>,
     code: Code,
     /// The first part of the result that is 0 where the task is singular.
@@ -33,7 +34,6 @@ impl Kernel {
     ) -> Result<Self, Error> {
         let made = translate(host, method, program, joints)?;
         Ok(Self {
-            angles: Angles::new(&program.angles),
             code: Code::new(&made)?,
             constants: made.constants,
             zero: method.zero_where_singular(),
@@ -54,73 +54,68 @@ impl Kernel {
 
     /// The method's result for `arguments`, of the right lengths, into `parts`, which are 0.
     #[inline]
-    pub(crate) fn run(
+    pub(crate) fn run<const A: usize>(
         &self,
         model: &Model,
         payload: &[f64; Payload::PARAMETERS],
-        arguments: &[&[f64]],
+        arguments: [&[f64]; A],
         parts: &mut [&mut [f64]],
     ) {
-        match arguments.first() {
-            Some(q) if self.has_q && !is_plain(q) => {
-                self.run_far(model, payload, arguments, parts);
-            }
-            _ => self.run_plain(model, payload, arguments, parts),
+        if self.has_q && !is_plain(arguments[0]) {
+            self.run_far(model, payload, arguments, parts);
+        } else {
+            self.run_plain(model, payload, arguments, parts);
         }
     }
 
-    /// As [`run`](Self::run), of coordinates that are read as others.
+    /// As [`run`](Self::run), of coordinates that are not read as they are.
     #[cold]
-    fn run_far(
+    fn run_far<const A: usize>(
         &self,
         model: &Model,
         payload: &[f64; Payload::PARAMETERS],
-        arguments: &[&[f64]],
+        arguments: [&[f64]; A],
         parts: &mut [&mut [f64]],
     ) {
         let joints = model.joints().iter().zip(arguments[0]);
         let q: Vec<f64> = joints
             .map(|(joint, q)| coordinate(joint.kind, *q))
             .collect();
-        let mut arguments = arguments.to_vec();
+        let mut arguments = arguments;
         arguments[0] = &q;
-        self.run_plain(model, payload, &arguments, parts);
+        self.run_plain(model, payload, arguments, parts);
     }
 
-    #[inline]
-    fn run_plain(
+    #[inline(always)]
+    fn run_plain<const A: usize>(
         &self,
         model: &Model,
         payload: &[f64; Payload::PARAMETERS],
-        arguments: &[&[f64]],
+        arguments: [&[f64]; A],
         parts: &mut [&mut [f64]],
     ) {
-        let q = arguments[0];
+        let mut inputs: [&[f64]; MAX_INPUTS] = [&[]; MAX_INPUTS];
+        inputs[CONSTANTS] = &self.constants;
+        inputs[PAYLOAD] = payload;
+        inputs[ARGUMENTS..][..A].copy_from_slice(&arguments);
+        let inputs = &inputs[..ARGUMENTS + A];
+        let Some(zero) = self.zero else {
+            self.code.run(inputs, parts);
+            return;
+        };
         let mut volume_squared = [0.0];
-        let count = parts.len();
-        self.angles.with_sines(q, |sines| {
-            let mut inputs: [&[f64]; MAX_INPUTS] = [&[]; MAX_INPUTS];
-            inputs[CONSTANTS] = &self.constants;
-            inputs[SINES] = sines;
-            inputs[PAYLOAD] = payload;
-            inputs[ARGUMENTS..][..arguments.len()].copy_from_slice(arguments);
-            let inputs = &inputs[..ARGUMENTS + arguments.len()];
-            let mut results: [&mut [f64]; MAX_RESULTS] = Default::default();
-            for (result, part) in results.iter_mut().zip(&mut *parts) {
-                *result = part;
-            }
-            let mut written = count;
-            if self.zero.is_some() {
-                results[count] = &mut volume_squared;
-                written += 1;
-            }
-            self.code.run(inputs, &mut results[..written]);
-        });
-        if let Some(zero) = self.zero {
-            let least = least_volume_squared(model.joints(), model.tool(), model.task(), q);
-            if counts_as_zero(volume_squared[0], least, q) {
-                parts[zero..].iter_mut().for_each(|part| part.fill(0.0));
-            }
+        let mut results: [&mut [f64]; MAX_RESULTS] = Default::default();
+        let mut count = 0;
+        for part in &mut *parts {
+            results[count] = part;
+            count += 1;
+        }
+        results[count] = &mut volume_squared;
+        self.code.run(inputs, &mut results[..=count]);
+        let q = arguments[0];
+        let least = least_volume_squared(model.joints(), model.tool(), model.task(), q);
+        if counts_as_zero(volume_squared[0], least, q) {
+            parts[zero..].iter_mut().for_each(|part| part.fill(0.0));
         }
     }
 }

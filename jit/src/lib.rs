@@ -5,7 +5,6 @@
 //!
 //! There are no features.
 
-mod angles;
 mod any;
 mod arm;
 mod code;

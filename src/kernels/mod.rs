@@ -5,7 +5,6 @@ pub(crate) mod batch;
 pub(crate) mod real;
 pub mod scalar;
 pub(crate) mod simd;
-pub(crate) mod sines;
 pub(crate) mod trigonometry;
 
 use crate::{Method, MethodSet, Real, SerialChain};

@@ -10,14 +10,14 @@ use std::time::Instant;
 
 use clap::Args;
 use rayon::prelude::*;
+use ulna_experiments::Subject;
 use ulna_study::Scenario;
-use ulna_study::assess::{Assessment, FailureGrid, GroundTruth, Tuning};
-use ulna_study::experiment::{AnyArm, ExperimentError};
+use ulna_study::assess::{Assessment, GroundTruth, Tuning};
+use ulna_study::experiment::ExperimentError;
 
-use crate::arms::{ForArm, with_arm};
 use crate::figures::{self, RatioMaps};
 use crate::output::{self, Files};
-use crate::{Verdict, console, reproduce};
+use crate::{Verdict, arms, console, reproduce};
 
 pub(crate) use table::title;
 
@@ -64,7 +64,8 @@ struct Findings<'s> {
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let scenario = reproduce::scenario(arguments.scenario.as_deref())?;
     output::check_folder(&arguments.output)?;
-    let findings = with_arm(scenario.arm(), Work(&scenario))??;
+    let arm = arms::subject(scenario.arm())?;
+    let findings = Findings::of(&*arm, &scenario)?;
     table::write(&findings, out)?;
     out.flush()?;
     let mut files = Files::default();
@@ -88,44 +89,37 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     Ok(Verdict::Pass)
 }
 
-impl Findings<'_> {
+impl<'s> Findings<'s> {
+    fn of(arm: &dyn Subject, scenario: &'s Scenario) -> Result<Self, ExperimentError> {
+        let clock = Instant::now();
+        let grid = arm.assess(scenario)?;
+        let failures: Vec<usize> = (0..grid.count()).collect();
+        let cases = everything(&failures, &|failure| grid.cases(failure))?;
+        let failures = grid.simulated();
+        let felt = grid.gains().into_iter().map(|gain| {
+            let felt = everything(&failures, &|failure| grid.felt(failure, gain))?;
+            Ok(grid.ground_truth(gain, &felt))
+        });
+        Ok(Self {
+            scenario,
+            felt: felt.collect::<Result<_, ExperimentError>>()?,
+            simulated: failures.len(),
+            assessment: grid.assessment(cases),
+            times: grid.times().to_vec(),
+            tuning: grid.tuning(),
+            joints: arm.joints(),
+            null_space: arm.joints().saturating_sub(arm.task().len()),
+            limited: grid.rated_torque().iter().any(|rated| rated.is_finite()),
+            seconds: clock.elapsed().as_secs_f64(),
+        })
+    }
+
     fn has_pairs(&self) -> bool {
         self.assessment.laws.iter().any(|law| law.pairs.is_some())
     }
 }
 
-struct Work<'s>(&'s Scenario);
-
-impl<'s> ForArm for Work<'s> {
-    type Output = Result<Findings<'s>, ExperimentError>;
-
-    fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
-        let clock = Instant::now();
-        let grid = FailureGrid::new(arm, self.0)?;
-        let laws = grid.laws()?;
-        let failures: Vec<usize> = (0..grid.len()).collect();
-        let cases = everything(&failures, &|failure| grid.cases(&laws, failure))?;
-        let failures = grid.simulated();
-        let felt = grid.gains().into_iter().map(|gain| {
-            let felt = everything(&failures, &|failure| grid.felt(&laws, failure, gain))?;
-            Ok(GroundTruth::new(&laws, gain, &felt))
-        });
-        Ok(Findings {
-            scenario: self.0,
-            felt: felt.collect::<Result<_, ExperimentError>>()?,
-            simulated: failures.len(),
-            assessment: Assessment::new(&laws, cases),
-            times: grid.times().to_vec(),
-            tuning: grid.tuning(),
-            joints: N,
-            null_space: N.saturating_sub(arm.task().len()),
-            limited: grid.rated_torque().iter().any(|rated| rated.is_finite()),
-            seconds: clock.elapsed().as_secs_f64(),
-        })
-    }
-}
-
-/// Something of every failure, side by side: apart from the grid, so that this is not compiled for each number of joints.
+/// Something of every failure, side by side.
 fn everything<T: Send>(
     failures: &[usize],
     one: &(dyn Fn(usize) -> Result<T, ExperimentError> + Sync),

@@ -23,16 +23,15 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use rayon::prelude::*;
-use ulna::SerialChain;
+use ulna_experiments::Subject;
 use ulna_study::Scenario;
 use ulna_study::experiment::{
-    Ablation, AnyArm, ExperimentError, ExperimentRunner, LimitedSuppression, LockMechanics,
-    PlanSteps, SimulatedLock, Study, Sweep, lock_mechanics,
+    Ablation, ExperimentError, LimitedSuppression, LockMechanics, PlanSteps, SimulatedLock, Study,
+    Sweep,
 };
 use ulna_study::scenario::{Experiment, ScenarioErrors};
 
-use crate::arms::{ForArm, GENERATED, with_arm, with_chain_of};
-use crate::joints::ForChain;
+use crate::arms::{self, GENERATED};
 use crate::output::{self, Files};
 use crate::{Verdict, console};
 use force::Asked;
@@ -70,8 +69,8 @@ impl Default for Arguments {
 pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<Verdict> {
     let scenario = scenario(arguments.scenario.as_deref())?;
     output::check_folder(&arguments.output)?;
-    let locks = with_chain_of(scenario.arm(), Locks(&scenario))??;
-    let findings = with_arm(scenario.arm(), Findings::of(&scenario, locks))??;
+    let arm = arms::subject(scenario.arm())?;
+    let findings = Findings::of(&*arm, &scenario)?;
     table::write(&scenario, &findings, out)?;
     ablation::write(&findings.ablations, out)?;
     out.flush()?;
@@ -135,94 +134,39 @@ impl Findings {
         Asked::of(experiment, study, &self.locks)
     }
 
-    /// The work that leads to the findings.
-    fn of(scenario: &Scenario, locks: Vec<LockMechanics>) -> Work<'_> {
-        Work { scenario, locks }
+    /// Asks everything of the arm, side by side.
+    fn of(arm: &dyn Subject, scenario: &Scenario) -> Result<Self, ExperimentError> {
+        let locks = arm.mechanics(scenario)?;
+        let runner = arm.experiments(scenario)?;
+        let (experiments, failure_times) = (scenario.experiments(), scenario.failure_times());
+        let pairs = experiments.iter().flat_map(|experiment| {
+            let times = failure_times.iter();
+            times.map(move |time| (experiment, *time))
+        });
+        // Each stands by itself, and the order of the results is that of the pairs.
+        let pairs: Vec<_> = pairs.collect();
+        let limited = pairs
+            .par_iter()
+            .filter_map(|(experiment, time)| runner.limited(experiment, *time).transpose());
+        let limited = limited.collect::<Result<_, _>>()?;
+        let studies = pairs
+            .into_par_iter()
+            .map(|(experiment, time)| runner.study(experiment, time));
+        let first = &experiments[0];
+        let times = failure_times.par_iter();
+        let simulations = times
+            .clone()
+            .map(|time| runner.simulated_lock(first, *time));
+        let ablations = times.clone().map(|time| runner.ablation(first, *time));
+        let sweeps = times.map(|time| runner.sweep(first, *time));
+        Ok(Self {
+            ablations: ablations.collect::<Result<_, _>>()?,
+            studies: studies.collect::<Result<_, _>>()?,
+            simulations: simulations.collect(),
+            sweeps: sweeps.collect(),
+            plan_steps: runner.plan_steps(first),
+            limited,
+            locks,
+        })
     }
-}
-
-struct Locks<'s>(&'s Scenario);
-
-impl ForChain for Locks<'_> {
-    type Output = Result<Vec<LockMechanics>, ExperimentError>;
-
-    fn run<const N: usize>(self, chain: &SerialChain<N>) -> Self::Output {
-        lock_mechanics(chain, self.0)
-    }
-}
-
-struct Work<'s> {
-    scenario: &'s Scenario,
-    locks: Vec<LockMechanics>,
-}
-
-impl ForArm for Work<'_> {
-    type Output = Result<Findings, ExperimentError>;
-
-    fn run<const N: usize>(self, arm: &AnyArm<N>) -> Self::Output {
-        let runner = ExperimentRunner::new(arm, self.scenario)?;
-        let study = |experiment: &Experiment, time| runner.study(experiment, time);
-        let simulated = |experiment: &Experiment, time| runner.simulated_lock(experiment, time);
-        let limited = |experiment: &Experiment, time| runner.limited(experiment, time);
-        let ablation = |experiment: &Experiment, time| runner.ablation(experiment, time);
-        let sweep = |experiment: &Experiment, time| runner.sweep(experiment, time);
-        let attempts = Attempts {
-            study: &study,
-            simulated: &simulated,
-            limited: &limited,
-            ablation: &ablation,
-            sweep: &sweep,
-        };
-        let plan_steps = runner.plan_steps(&self.scenario.experiments()[0]);
-        explore(self.scenario, plan_steps, self.locks, &attempts)
-    }
-}
-
-/// One experiment with the failure at one time, s.
-type Attempt<'l, T> = dyn Fn(&Experiment, f64) -> Result<T, ExperimentError> + Sync + 'l;
-
-/// Everything that is asked of a runner.
-struct Attempts<'l> {
-    study: &'l Attempt<'l, Study>,
-    simulated: &'l Attempt<'l, SimulatedLock>,
-    limited: &'l Attempt<'l, Option<LimitedSuppression>>,
-    ablation: &'l Attempt<'l, Ablation>,
-    sweep: &'l Attempt<'l, Sweep>,
-}
-
-/// Asks it, side by side. Apart from the runner, so that this is not compiled for each number of joints.
-fn explore(
-    scenario: &Scenario,
-    plan_steps: PlanSteps,
-    locks: Vec<LockMechanics>,
-    ask: &Attempts<'_>,
-) -> Result<Findings, ExperimentError> {
-    let (experiments, failure_times) = (scenario.experiments(), scenario.failure_times());
-    let pairs = experiments.iter().flat_map(|experiment| {
-        let times = failure_times.iter();
-        times.map(move |time| (experiment, *time))
-    });
-    // Each stands by itself, and the order of the results is that of the pairs.
-    let pairs: Vec<_> = pairs.collect();
-    let limited = pairs
-        .par_iter()
-        .filter_map(|(experiment, time)| (ask.limited)(experiment, *time).transpose());
-    let limited = limited.collect::<Result<_, _>>()?;
-    let studies = pairs
-        .into_par_iter()
-        .map(|(experiment, time)| (ask.study)(experiment, time));
-    let first = &experiments[0];
-    let times = failure_times.par_iter();
-    let simulations = times.clone().map(|time| (ask.simulated)(first, *time));
-    let ablations = times.clone().map(|time| (ask.ablation)(first, *time));
-    let sweeps = times.map(|time| (ask.sweep)(first, *time));
-    Ok(Findings {
-        ablations: ablations.collect::<Result<_, _>>()?,
-        studies: studies.collect::<Result<_, _>>()?,
-        simulations: simulations.collect(),
-        sweeps: sweeps.collect(),
-        plan_steps,
-        limited,
-        locks,
-    })
 }

@@ -12,7 +12,7 @@ use crate::kernels::trigonometry::{Quarters, sin_cos};
 /// The double.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub(super) struct Fused(f64);
+pub(super) struct Fused(pub(super) f64);
 
 // SAFETY: a transparent f64.
 unsafe impl Zeroable for Fused {}

@@ -11,6 +11,7 @@
 mod avx2;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod avx512;
+mod eight;
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 mod fused;
 mod instructions;
@@ -23,6 +24,7 @@ use bytemuck::Pod;
 
 use crate::Real;
 
+pub use eight::{EightSines, eight_sines};
 pub use instructions::Instructions;
 pub(crate) use plain::{Plain, Settled};
 

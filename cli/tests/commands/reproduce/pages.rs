@@ -9,11 +9,11 @@ use crate::by_table::TOLD;
 use crate::support::{stderr, stdout};
 
 #[test]
-fn a_table_runs_on_the_generic_path() {
+fn a_table_runs_as_machine_code() {
     let folder = planar_scenario();
     let run = reproduce(&folder).code(0);
     let (out, told) = (stdout(&run), stderr(&run));
-    assert_eq!(told.matches(TOLD).count(), 1, "{told}");
+    assert!(!told.contains(TOLD), "{told}");
     assert!(
         out.starts_with("by_table: arm my_arm, joint 2 locks\n"),
         "{out}"
