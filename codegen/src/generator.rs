@@ -7,7 +7,7 @@ use ulna::{Method, MethodSet};
 use ulna_table::Model;
 use ulna_table::toml_reader::closest;
 
-use crate::{Compiled, Error, Generated, Stage, build};
+use crate::{COptions, Compiled, Error, Generated, GeneratedC, Stage, build};
 
 /// Generates code for every method of [`ulna::Arm`], or for some of them.
 ///
@@ -79,9 +79,35 @@ impl Generator {
         source: &str,
         watch: &dyn Fn(Stage),
     ) -> Generated {
-        let file_name = source.rsplit(std::path::is_separator).next();
         let compiled = self.compile_watched(model, watch);
-        Generated::new(model, file_name.unwrap_or(source), compiled, watch)
+        Generated::new(model, file_name(source), compiled, watch)
+    }
+
+    /// The arm in C: a header and a source file. `source` is the table's path, as for [`generate`](crate::generate).
+    ///
+    /// ```no_run
+    /// use ulna_codegen::{COptions, Generator};
+    /// let table = "arms/ssrms.toml";
+    /// let c = Generator::new().generate_c(&ulna_table::Model::load(table)?, table, COptions::new());
+    /// for (name, text) in c.files() {
+    ///     std::fs::write(name, text)?; // ssrms.h, ssrms.c
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn generate_c(&self, model: &Model, source: &str, options: COptions) -> GeneratedC {
+        self.generate_c_watched(model, source, options, &|_| ())
+    }
+
+    /// The same, telling `watch` of every stage before it begins.
+    pub fn generate_c_watched(
+        &self,
+        model: &Model,
+        source: &str,
+        options: COptions,
+        watch: &dyn Fn(Stage),
+    ) -> GeneratedC {
+        let compiled = self.compile_watched(model, watch);
+        GeneratedC::watched(model, file_name(source), &compiled, options, watch)
     }
 
     /// As [`compile`](crate::compile).
@@ -117,6 +143,11 @@ impl Generator {
     pub fn compile_folder(&self, folder: impl AsRef<Path>) -> Result<(), Error> {
         build::compile_folder_with(self, folder.as_ref())
     }
+}
+
+/// The last part of a path.
+fn file_name(path: &str) -> &str {
+    path.rsplit(std::path::is_separator).next().unwrap_or(path)
 }
 
 /// A name that no method of [`ulna::Arm`] has.

@@ -1,4 +1,4 @@
-//! From a robot arm's table to unrolled Rust: the generator of ulna.
+//! From a robot arm's table to unrolled Rust, or C: the generator of ulna.
 //!
 //! ```no_run
 //! // build.rs, with `ulna-codegen` among the build dependencies and `ulna` among the others;
@@ -15,11 +15,33 @@
 //! - [`compile_arms`], [`compile_listed`] and [`compile_folder`]: for build scripts. The crate `ulna-macros` does it without one, the program `ulna` by hand.
 //! - [`Generator`]: all that for some methods alone.
 //! - [`generate`]: a [`Model`] in, [`Generated`] code out, as text or tokens.
+//! - [`Generator::generate_c`]: the same arm in C, as a header and a source file ([`GeneratedC`], [`COptions`]).
 //! - [`compile`]: the [`Program`]s that code is printed from, for whoever prints them in another way.
 //! - [`BaseParameters`]: which combinations of inertial parameters an arm's torques depend on.
 //! - [`Interpreter`]: an arm that runs its programs without a compiler, in `f64` or in 106 bits.
 //!
 //! There are no features.
+//!
+//! # C
+//!
+//! [`Generator::generate_c`] writes `NAME.h` and `NAME.c`: C99 without allocation, without a state between calls, and with nothing of a library but
+//! `sin`, `cos` and `sqrt` (`sinf`, `cosf`, `sqrtf` in single precision). Each method is a function
+//!
+//! ```c
+//! void NAME_method(const NAME_real q[N], ..., NAME_real result[LENGTH]);
+//! ```
+//!
+//! - The arguments are those of the method of [`ulna::Arm`], whether or not this arm's numbers depend on them. `result` is its result, all parts
+//!   one after another, matrices by columns, without anything between; the header says of each function which number stands where.
+//!   It must not overlap an argument.
+//! - Coordinates are read as every backend reads them, and where the task is [singular](ulna::arm::singular) the same numbers are 0 as in Rust:
+//!   for finite coordinates no result is NaN. In single precision the rounding that tells singular poses is that of `float`.
+//! - An arm with a payload at run time takes `const NAME_real payload[10]` before `result` in every function, and has a function `NAME_payload`
+//!   that makes these numbers of a body's mass, centroid and inertia in the tool's frame. It does not judge them, as [`ulna::Payload::new`] does.
+//! - Products and sums stand as they are: the compiler's `-ffp-contract` decides whether they are fused. With `-ffp-contract=off` the
+//!   results are those of [`Interpreter`] to the bit where sines are of the same library.
+//! - Functions have at most [`COptions::FUNCTION_LENGTH`] statements unless [another number](COptions::function_length) is asked for; longer methods are
+//!   several static functions that hand on a structure on the stack.
 //!
 //! # Inside
 //!
@@ -30,7 +52,7 @@
 //! | formulate | [`ulna_table::Model`] | named outputs on a graph, differentiated there |
 //! | schedule | outputs on a graph | a straight-line [`Program`] |
 //! | accuracy | programs | their rounding errors, on which the choice of formulas depends |
-//! | emit | programs | Rust |
+//! | emit | programs | Rust, C |
 
 mod accuracy;
 mod base_parameters;
@@ -61,7 +83,8 @@ pub use base_parameters::{BaseParameter, BaseParameters, Term};
 pub use build::{Error, compile_arms, compile_folder, compile_listed};
 pub use cost::Counts;
 pub use double_double::DoubleDouble;
-pub use emit::Generated;
+pub use emit::c::{Abi, COptions, GeneratedC, Precision};
+pub use emit::rust::Generated;
 pub use generator::{Generator, UnknownMethod};
 pub use graph::{AngleSum, Input};
 pub use interpret::Interpreter;

@@ -1,7 +1,5 @@
-//! The operators of the expression graph, one row each: value, derivative, Rust tokens, name in a count.
+//! The operators of the expression graph, one row each: value, derivative, name in a count.
 
-use proc_macro2::TokenStream;
-use quote::quote;
 use ulna::Real;
 
 use crate::graph::Expr;
@@ -16,13 +14,11 @@ pub struct Row {
     pub arity: usize,
     /// Its partial derivatives by both arguments, given the arguments and the result.
     pub partials: for<'g> fn(Expr<'g>, Expr<'g>, Expr<'g>) -> [Expr<'g>; 2],
-    /// Its tokens over those of its arguments, each an operand that needs no parentheses.
-    pub tokens: fn(&TokenStream, &TokenStream) -> TokenStream,
 }
 
 macro_rules! operators {
     ($($op:ident $doc:literal $name:literal $arity:literal
-       value |$a:pat_param, $b:pat_param| $value:expr, partials $partials:expr, tokens $tokens:expr;)+) => {
+       value |$a:pat_param, $b:pat_param| $value:expr, partials $partials:expr;)+) => {
         /// An operator of the graph.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Op {
@@ -31,7 +27,7 @@ macro_rules! operators {
 
         /// The table of operators, in the order of [`Op`].
         static ROWS: &[Row] = &[
-            $(Row { op: Op::$op, name: $name, arity: $arity, partials: $partials, tokens: $tokens }),+
+            $(Row { op: Op::$op, name: $name, arity: $arity, partials: $partials }),+
         ];
 
         impl Op {
@@ -53,12 +49,12 @@ macro_rules! operators {
 
 #[rustfmt::skip]
 operators! {
-    Add  "`a + b`" "add"  2 value |a, b| a + b,    partials |a, _, _| [a.of(1.0), a.of(1.0)],        tokens |a, b| quote!(#a + #b);
-    Sub  "`a - b`" "sub"  2 value |a, b| a - b,    partials |a, _, _| [a.of(1.0), a.of(-1.0)],       tokens |a, b| quote!(#a - #b);
-    Mul  "`a * b`" "mul"  2 value |a, b| a * b,    partials |a, b, _| [b, a],                        tokens |a, b| quote!(#a * #b);
-    Div  "`a / b`" "div"  2 value |a, b| a / b,    partials |a, b, y| [a.of(1.0) / b, -(y / b)],     tokens |a, b| quote!(#a / #b);
-    Neg  "`-a`"    "neg"  1 value |a, _| -a,       partials |a, _, _| [a.of(-1.0), a.of(0.0)],       tokens |a, _| quote!(-#a);
-    Sqrt "`√a`"    "sqrt" 1 value |a, _| a.sqrt(), partials |a, _, y| [a.of(0.5) / y, a.of(0.0)],    tokens |a, _| quote!(#a.sqrt());
+    Add  "`a + b`" "add"  2 value |a, b| a + b,    partials |a, _, _| [a.of(1.0), a.of(1.0)];
+    Sub  "`a - b`" "sub"  2 value |a, b| a - b,    partials |a, _, _| [a.of(1.0), a.of(-1.0)];
+    Mul  "`a * b`" "mul"  2 value |a, b| a * b,    partials |a, b, _| [b, a];
+    Div  "`a / b`" "div"  2 value |a, b| a / b,    partials |a, b, y| [a.of(1.0) / b, -(y / b)];
+    Neg  "`-a`"    "neg"  1 value |a, _| -a,       partials |a, _, _| [a.of(-1.0), a.of(0.0)];
+    Sqrt "`√a`"    "sqrt" 1 value |a, _| a.sqrt(), partials |a, _, y| [a.of(0.5) / y, a.of(0.0)];
 }
 
 impl Op {

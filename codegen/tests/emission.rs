@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use ulna_codegen::{Counts, Generated, Generator, Method, generate};
+use ulna_codegen::{
+    COptions, Counts, Generated, GeneratedC, Generator, Method, Precision, generate,
+};
 use ulna_table::Model;
 
 fn arms() -> Vec<PathBuf> {
@@ -58,6 +60,65 @@ fn of(arm: &str) -> Generated {
 #[test]
 fn the_planar_arm_in_full() {
     insta::assert_snapshot!(of("planar_2r").source());
+}
+
+#[test]
+fn the_planar_arm_in_c_in_full() {
+    let model = load("planar_2r");
+    let c = Generator::new().generate_c(&model, "arms/planar_2r.toml", COptions::new());
+    let [(header_name, header), (source_name, source)] = c.files();
+    insta::assert_snapshot!(format!(
+        "{header_name}\n\n{header}\n{source_name}\n\n{source}"
+    ));
+}
+
+/// No function is longer than it may be, but for those that call the parts; what is short has no parts, and no length changes anything else.
+#[test]
+fn functions_of_c_are_as_short_as_is_asked_for() {
+    let model = load("ssrms");
+    let compiled = Generator::new().compile(&model);
+    let of = |length| {
+        GeneratedC::of(
+            &model,
+            "table",
+            &compiled,
+            COptions::new().function_length(length),
+        )
+    };
+    let (short, whole) = (of(40), of(1_000_000));
+    assert_eq!(short.header(), whole.header());
+    assert!(!whole.source().contains("_part_1"));
+    assert!(short.source().matches("_part_1(").count() > 20);
+    let mut parts = 0;
+    for function in short.source().split(")\n{\n").skip(1) {
+        let (body, _) = function.split_once("\n}\n").expect("an end");
+        let calls = body.contains("_part_1(");
+        parts += usize::from(!calls);
+        assert!(calls || body.matches(';').count() <= 40, "{body}");
+    }
+    assert!(parts > 100);
+}
+
+/// Whatever the scalar, it goes by its name; numbers are of its type.
+#[test]
+fn single_precision_is_single_throughout() {
+    let model = load("stanford_arm");
+    let compiled = Generator::new().compile(&model);
+    let options = COptions::new().precision(Precision::Float);
+    let c = GeneratedC::of(&model, "table", &compiled, options);
+    assert!(c.header().contains("typedef float stanford_arm_real;"));
+    let is_comment = |line: &str| line.trim_start().starts_with(['*', '/']);
+    let code = c.source().lines().filter(|line| !is_comment(line));
+    for line in code {
+        for word in line
+            .replace("e-", "e")
+            .split(|c: char| !(c.is_ascii_alphanumeric() || "._".contains(c)))
+        {
+            let is_number = word.starts_with(|c: char| c.is_ascii_digit()) && word.contains('.');
+            assert!(!is_number || word.ends_with('F'), "{line}");
+            assert!(!["double", "sin", "cos", "sqrt"].contains(&word), "{line}");
+        }
+    }
 }
 
 #[test]

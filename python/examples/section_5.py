@@ -47,6 +47,6 @@ bars = [("without", study["cases"]["eq16"]["impact_before"], "k")]
 bars += [(label, study["cases"][law]["impact_after"], None) for law, label in laws.items()]
 for shift, (label, impact, colour) in zip(np.linspace(-0.3, 0.3, len(bars)), bars):
     axes[-1].bar(places + shift, impact, 0.2, color=colour, label=label)
-axes[-1].set(title=f"impact of the lock, experiment {section}", xlabel="joint", ylabel="N m", xticks=places, xticklabels=places + 1)
+axes[-1].set(title=f"impact of the lock, experiment {section}", xlabel="joint (2 locks)", ylabel="N m", xticks=places, xticklabels=places + 1)
 figure.savefig(picture, dpi=110)
 print("wrote", picture)

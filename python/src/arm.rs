@@ -6,7 +6,7 @@ use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use ulna::{JointKind, Method, Payload, PayloadError, Placement, TaskRow};
-use ulna_codegen::Generator;
+use ulna_codegen::{Abi, Generator, Precision};
 use ulna_experiments::{Subject, by_table};
 use ulna_jit::AnyJit;
 use ulna_table::Model;
@@ -224,6 +224,19 @@ impl Arm {
         Ok(py.detach(|| generator.generate(&self.model, &self.source).source()))
     }
 
+    /// C, of all methods or of some: the header and the source file.
+    fn generate_c(
+        &self,
+        py: Python<'_>,
+        methods: Option<Vec<String>>,
+        options: COptions,
+    ) -> PyResult<(String, String)> {
+        let generator = generator(methods)?;
+        let options = options.checked()?;
+        let c = py.detach(|| generator.generate_c(&self.model, &self.source, options));
+        Ok((c.header().to_owned(), c.source().to_owned()))
+    }
+
     fn cost<'py>(
         &self,
         py: Python<'py>,
@@ -242,6 +255,36 @@ impl Arm {
     ) -> PyResult<Vec<reports::Report>> {
         let generator = generator(methods)?;
         py.detach(|| reports::verify(&self.model, generator, samples))
+    }
+}
+
+/// How C is written.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct COptions {
+    float: bool,
+    casadi: bool,
+    function_length: usize,
+}
+
+impl COptions {
+    fn checked(self) -> PyResult<ulna_codegen::COptions> {
+        let shortest = ulna_codegen::COptions::SHORTEST;
+        if self.function_length < shortest {
+            return Err(PyValueError::new_err(format!(
+                "function_length: expected {shortest} or more, found {}",
+                self.function_length
+            )));
+        }
+        let options = ulna_codegen::COptions::new().function_length(self.function_length);
+        let options = match self.float {
+            true => options.precision(Precision::Float),
+            false => options,
+        };
+        Ok(match self.casadi {
+            true => options.abi(Abi::Casadi),
+            false => options,
+        })
     }
 }
 

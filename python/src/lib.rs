@@ -1,9 +1,9 @@
 //! The native half of the Python package `ulna`.
 //!
 //! What Python sees is in `ulna/`: classes with types and docs, which call what is here. Here arrays are read and made
-//! ([`arguments`], [`results`]), methods run without Python's lock and on many threads ([`run`], [`threads`]), errors become
-//! exceptions with the program's words ([`errors`]), experiments dictionaries of arrays
-//! ([`experiments`]), and campaigns files ([`campaign`]).
+//! (`arguments`, `results`), methods run without Python's lock and on many threads (`run`, `threads`), errors become
+//! exceptions with the program's words (`errors`), experiments dictionaries of arrays (`experiments`), and campaigns
+//! files (`campaign`).
 
 mod arguments;
 mod arm;

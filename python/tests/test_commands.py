@@ -1,5 +1,10 @@
 """What the program does with a table, from Python."""
 
+import ctypes
+import shutil
+import subprocess
+
+import numpy as np
 import pytest
 
 import ulna
@@ -15,8 +20,29 @@ def test_code_is_that_of_the_program():
     assert len(load("planar_2r").generate()) > len(written)
     with pytest.raises(ValueError, match="unknown method `mass_matirx`: did you mean `mass_matrix`"):
         load("planar_2r").generate(methods=["mass_matirx"])
-    with pytest.raises(ValueError, match='language: expected "rust"'):
+    with pytest.raises(ValueError, match='language: expected "rust" or "c", found'):
         load("planar_2r").generate("fortran")
+
+
+def test_c_computes_what_python_does(tmp_path):
+    """Where there is a C compiler."""
+    compiler = shutil.which("cc")
+    if compiler is None:
+        pytest.skip("no C compiler")
+    arm = load("planar_2r")
+    header, source = arm.generate("c", methods=["mass_matrix", "gravity_torque"])
+    (tmp_path / "planar_2r.h").write_text(header, encoding="utf-8")
+    (tmp_path / "planar_2r.c").write_text(source, encoding="utf-8")
+    library = tmp_path / "planar_2r.so"
+    subprocess.run([compiler, "-shared", "-fPIC", "-O1", tmp_path / "planar_2r.c", "-o", library, "-lm"], check=True)
+    q = np.array([0.3, -0.7])
+    matrix = np.zeros(4)
+    pointer = ctypes.POINTER(ctypes.c_double)
+    ctypes.CDLL(str(library)).planar_2r_mass_matrix(q.ctypes.data_as(pointer), matrix.ctypes.data_as(pointer))
+    np.testing.assert_allclose(matrix.reshape(2, 2).T, arm.mass_matrix(q), rtol=1e-14)
+    assert "float" in arm.generate("c", precision="float")[0] and "planar_2r_inverse_dynamics" in arm.generate("c")[0]
+    with pytest.raises(ValueError, match="function_length: expected 20 or more, found 3"):
+        arm.generate("c", function_length=3)
 
 
 def test_every_method_has_its_cost():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -268,16 +268,51 @@ class Arm(Methods):
         }
         return Plan(_ulna.plan_motion(self._native, asked))
 
-    def generate(self, language: str = "rust", *, methods: Sequence[str] | None = None) -> str:
+    @overload
+    def generate(self, language: Literal["rust"] = "rust", *, methods: Sequence[str] | None = None) -> str: ...
+
+    @overload
+    def generate(
+        self,
+        language: Literal["c"],
+        *,
+        methods: Sequence[str] | None = None,
+        precision: str = "double",
+        abi: str | None = None,
+        function_length: int = 2000,
+    ) -> tuple[str, str]: ...
+
+    def generate(
+        self,
+        language: str = "rust",
+        *,
+        methods: Sequence[str] | None = None,
+        precision: str = "double",
+        abi: str | None = None,
+        function_length: int = 2000,
+    ) -> str | tuple[str, str]:
         """The arm's code, as ``ulna generate`` writes it.
 
         Args:
-            language: ``"rust"``.
-            methods: the methods that are generated, all without it; the others run by the textbook's formulas.
+            language: ``"rust"`` or ``"c"``.
+            methods: the methods that are generated, all without it. Others run by the textbook's formulas in Rust, and are not there in C.
+            precision: of C: ``"double"`` or ``"float"``.
+            abi: of C: ``"casadi"`` for the functions that ``casadi.external`` looks for besides.
+            function_length: of C: the most statements of a function.
+
+        Returns:
+            Rust's text; of C the header's, ``NAME.h``, and the source file's, ``NAME.c``.
         """
-        if language != "rust":
-            raise ValueError(f'language: expected "rust", found {language!r}')
-        return self._native.generate_rust(methods)
+        if language == "rust":
+            return self._native.generate_rust(methods)
+        if language != "c":
+            raise ValueError(f'language: expected "rust" or "c", found {language!r}')
+        if precision not in ("double", "float"):
+            raise ValueError(f'precision: expected "double" or "float", found {precision!r}')
+        if abi not in (None, "casadi"):
+            raise ValueError(f'abi: expected "casadi", found {abi!r}')
+        options = {"float": precision == "float", "casadi": abi == "casadi", "function_length": function_length}
+        return self._native.generate_c(methods, options)
 
     def cost(self, *, methods: Sequence[str] | None = None) -> dict[str, Any]:
         """The operations of each method, as ``ulna cost --json`` gives them.

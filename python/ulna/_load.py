@@ -105,4 +105,5 @@ def arm(name: str) -> Arm:
     Raises:
         ValueError: none is called so.
     """
-    return parse(_ulna.tables_text(name), f"{name}.toml")
+    # What its table is warned of is as it is meant.
+    return Arm(_ulna.restore(_ulna.tables_text(name), f"{name}.toml", []))

@@ -57,7 +57,7 @@ pub(crate) struct Arguments {
     /// The seed of all random numbers; without it the scenario's
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
-    /// How many threads; without it one for each core
+    /// How many threads; without it one for each core, and one for each shard of a script
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
     /// Make the I-th of N shards alone, counted from 1; `ulna merge` puts them together

@@ -246,3 +246,140 @@ fn a_replaced_file_keeps_its_rights() {
     );
     assert_eq!(at(&file), "precious");
 }
+
+#[test]
+fn c_is_two_files_that_can_be_checked() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("new/c");
+    let output = path.to_str().unwrap();
+    let arguments = [
+        "generate",
+        TABLE,
+        "--language",
+        "c",
+        "--methods",
+        "mass_matrix,dynamic_manipulability",
+        "--output",
+        output,
+    ];
+    let check = [&arguments[..], &["--check"]].concat();
+    let err = stderr(&ulna(&check).code(1).stdout(""));
+    assert!(
+        err.contains("cannot read") && err.contains("planar_2r.c"),
+        "{err}"
+    );
+    assert!(!path.exists(), "--check made a folder");
+
+    ulna(&arguments).code(0).stdout("").stderr("");
+    let read = |name: &str| fs::read_to_string(path.join(name)).unwrap();
+    let (header, source) = (read("planar_2r.h"), read("planar_2r.c"));
+    assert_eq!(fs::read_dir(&path).unwrap().count(), 2);
+    assert!(header.contains("typedef double planar_2r_real;"));
+    assert!(header.contains(
+        "void planar_2r_mass_matrix(const planar_2r_real q[2], planar_2r_real result[4]);"
+    ));
+    assert!(!header.contains("planar_2r_inverse_dynamics("));
+    assert!(source.contains("#include \"planar_2r.h\""));
+    ulna(&check).code(0).stdout("").stderr("");
+
+    fs::write(path.join("planar_2r.h"), header.replace("double", "float")).unwrap();
+    let err = stderr(&ulna(&check).code(1).stdout(""));
+    assert!(
+        err.contains("planar_2r.h is out of date from line"),
+        "{err}"
+    );
+    assert!(
+        err.contains(&format!(
+            "`ulna generate {TABLE} --language c --methods mass_matrix,dynamic_manipulability --output {output}`"
+        )),
+        "{err}"
+    );
+    assert!(!err.contains("planar_2r.c is out"), "{err}");
+    ulna(&[&arguments[..], &["--precision", "float"]].concat()).code(0);
+    assert!(read("planar_2r.h").contains("typedef float planar_2r_real;"));
+    assert!(read("planar_2r.c").contains("sqrtf("));
+}
+
+#[test]
+fn short_functions_of_c_are_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().to_str().unwrap();
+    let arguments = [
+        "generate",
+        "arms/ssrms.toml",
+        "--language",
+        "c",
+        "--methods",
+        "mass_matrix",
+        "--function-length",
+        "50",
+        "--output",
+        output,
+    ];
+    ulna(&arguments).code(0);
+    let source = fs::read_to_string(folder.path().join("ssrms.c")).unwrap();
+    assert!(source.contains("static void ssrms_mass_matrix_part_2("));
+    for function in source.split(")\n{\n").skip(1) {
+        let (body, _) = function.split_once("\n}\n").unwrap();
+        assert!(body.matches(';').count() <= 50, "{body}");
+    }
+}
+
+#[test]
+fn options_of_c_that_make_no_sense_are_usage_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().to_str().unwrap();
+    let wrong: [(&[&str], &str); 6] = [
+        (
+            &["--precision", "float"],
+            "`--precision` is about C: it needs `--language c`",
+        ),
+        (
+            &["--function-length", "100"],
+            "`--function-length` is about C",
+        ),
+        (
+            &["--language", "rust", "--abi", "casadi"],
+            "`--abi` is about C",
+        ),
+        (
+            &["--language", "c"],
+            "name their folder with `--output DIR`",
+        ),
+        (
+            &[
+                "--language",
+                "c",
+                "--output",
+                output,
+                "--function-length",
+                "3",
+            ],
+            "20 or more",
+        ),
+        (&["--language", "fortran"], "possible values: rust, c"),
+    ];
+    for (options, message) in wrong {
+        let run = ulna(&[&["generate", TABLE], options].concat());
+        let err = stderr(&run.code(2).stdout(""));
+        assert!(err.contains(message), "{err}");
+    }
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+#[test]
+fn a_bad_table_writes_no_c() {
+    let folder = folder_with_bad_table();
+    let table = folder.path().join("bad.toml");
+    let output = folder.path().join("c");
+    let run = ulna(&[
+        "generate",
+        table.to_str().unwrap(),
+        "--language",
+        "c",
+        "--output",
+        output.to_str().unwrap(),
+    ]);
+    run.code(1).stdout("");
+    assert!(!output.exists());
+}

@@ -2,8 +2,6 @@
 
 use std::collections::{HashMap, HashSet};
 
-use proc_macro2::Ident;
-use quote::format_ident;
 use ulna::Argument;
 
 use crate::graph::AngleSum;
@@ -39,9 +37,14 @@ impl<'p> Names<'p> {
         }
     }
 
+    /// Takes `names` for other things.
+    pub(super) fn reserve(&mut self, names: impl Iterator<Item = String>) {
+        self.taken.extend(names);
+    }
+
     /// A name for a step: its label, or that of the value that it is a term of and a number, with a letter more if that is taken;
     /// or else a number.
-    pub(super) fn name(&mut self, step: usize) -> Ident {
+    pub(super) fn name(&mut self, step: usize) -> String {
         let label = |step: usize| self.program.labels[step].as_ref();
         let mut name = match (label(step), self.sums[step]) {
             (Some(own), _) => own.text.clone(),
@@ -53,13 +56,13 @@ impl<'p> Names<'p> {
             }
             (None, None) => {
                 self.numbered += 1;
-                return format_ident!("t{}", self.numbered);
+                return format!("t{}", self.numbered);
             }
         };
         while !self.taken.insert(name.clone()) {
             name.push('b');
         }
-        format_ident!("{name}")
+        name
     }
 }
 

@@ -1,13 +1,13 @@
 //! A program as a generic function: sines and cosines first, then one named value after another.
 
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
-use super::expression::Writer;
+use super::super::plan::{Angle, Coordinates, Plan};
+use super::expression::{nested, tokens};
 use super::literal::literal;
 use super::{documentation, parts};
 use crate::MethodProgram;
-use crate::graph::AngleSum;
 
 /// Names that are declared together. Each `let` opens a scope within which all that follows is nested, and the
 /// compiler recurses over scopes; one declaration for many names keeps the nesting shallow however long the program.
@@ -15,43 +15,44 @@ pub(super) const NAMES_PER_SCOPE: usize = 128;
 
 /// The function of `Unrolled` that runs a method's program on any `R: Real`.
 pub(super) fn kernel(compiled: &MethodProgram, joints: usize) -> TokenStream {
-    let MethodProgram {
-        method, program, ..
-    } = compiled;
+    let method = compiled.method;
     let name = format_ident!("{}", method.kernel());
-    let writer = Writer::new(program);
-    let arguments = method.arguments().iter().map(|argument| {
-        let length = Literal::usize_unsuffixed(argument.length(joints));
-        let argument = argument.name();
-        let used = if writer.uses_argument(argument) {
-            ""
-        } else {
-            "_"
-        };
-        let argument = format_ident!("{used}{argument}");
+    let plan = Plan::new(compiled, joints, Coordinates::InPlace);
+    let of_method = plan.arguments.iter().take(method.arguments().len());
+    let arguments = of_method.map(|argument| {
+        let length = Literal::usize_unsuffixed(argument.length);
+        let used = if argument.is_read { "" } else { "_" };
+        let argument = format_ident!("{used}{}", argument.name);
         quote!(#argument: &[R; #length])
     });
-    let has_payload = writer.uses_argument("payload");
-    let payload = has_payload.then(|| quote!(let payload = &self.payload.parameters::<R>();));
-    let types: Vec<TokenStream> = program
-        .outputs
-        .iter()
-        .map(|o| array_of(&quote!(R), &o.shape))
-        .collect();
-    let outputs: Vec<TokenStream> = program.outputs.iter().map(|o| writer.output(o)).collect();
-    let (result, value) = match (types.as_slice(), outputs.as_slice()) {
+    let payload = plan
+        .reads_payload()
+        .then(|| quote!(let payload = &self.payload.parameters::<R>();));
+    let types = plan.outputs.iter().map(|o| array_of(&quote!(R), &o.shape));
+    let types: Vec<TokenStream> = types.collect();
+    let values = plan.outputs.iter().map(|output| {
+        nested(output, |element| match &element.name {
+            Some(name) => format_ident!("{name}").into_token_stream(),
+            None => tokens(&element.expression),
+        })
+    });
+    let values: Vec<TokenStream> = values.collect();
+    let (result, value) = match (types.as_slice(), values.as_slice()) {
         ([result], [value]) => (quote!(#result), quote!(#value)),
         (types, values) => (quote!((#(#types),*)), quote!((#(#values),*))),
     };
-    let angles = angles(&writer, &program.angles);
-    let mut named = writer.named();
-    let in_parts = parts::is_long(named.len());
-    let names = named.iter().map(|(name, _)| name.to_string());
-    let doc = documentation::lines(compiled, has_payload, names, writer.labels(!in_parts));
+    let angles = angles(&plan.angles);
+    let in_parts = parts::is_long(plan.values.len());
+    let doc = documentation::lines(&plan, !in_parts);
     let (body, value) = if in_parts {
-        (parts::parts(&writer, compiled, &named, joints), quote!())
+        (parts::parts(&plan), quote!())
     } else {
-        named.extend(writer.named_results());
+        let named = plan.values.iter();
+        let named = named.map(|value| (value.name.as_str(), &value.expression));
+        let mut named: Vec<(Ident, TokenStream)> = named
+            .chain(plan.named_results())
+            .map(|(name, value)| (format_ident!("{name}"), tokens(value)))
+            .collect();
         // A result that is a number, and the last to get a name, needs none.
         let last = named.pop_if(|(name, _)| *name == value.to_string());
         let value = last.map_or(value, |(_, expression)| expression);
@@ -78,22 +79,23 @@ pub(super) fn array_of(element: &TokenStream, shape: &[usize]) -> TokenStream {
 }
 
 /// Sines and cosines of all angles, in one call.
-fn angles(writer: &Writer<'_>, angles: &[AngleSum]) -> TokenStream {
+fn angles(angles: &[Angle]) -> TokenStream {
     if angles.is_empty() {
         return quote!();
     }
-    let or_underscore = |name: Option<Ident>| name.map_or(quote!(_), |name| quote!(#name));
-    let names = (0..angles.len()).map(|index| writer.angle(index));
-    let (sines, cosines): (Vec<TokenStream>, Vec<TokenStream>) = names
-        .map(|(sine, cosine)| (or_underscore(sine), or_underscore(cosine)))
-        .unzip();
-    let sums = angles.iter().map(|AngleSum { joints, offset }| {
-        let joints = joints.iter().map(|i| Literal::usize_unsuffixed(*i));
+    let or_underscore = |name: &Option<String>| match name {
+        Some(name) => format_ident!("{name}").into_token_stream(),
+        None => quote!(_),
+    };
+    let sines = angles.iter().map(|angle| or_underscore(&angle.sine));
+    let cosines = angles.iter().map(|angle| or_underscore(&angle.cosine));
+    let sums = angles.iter().map(|angle| {
+        let joints = angle.joints.iter().map(|i| Literal::usize_unsuffixed(*i));
         let sum = quote!(#(q[#joints])+*);
-        if *offset == 0.0 {
+        if angle.offset == 0.0 {
             sum
         } else {
-            let offset = literal(offset.to_f64());
+            let offset = literal(angle.offset);
             quote!(#sum + R::of(#offset))
         }
     });
