@@ -33,8 +33,10 @@ fn rows_of_one_identity_are_the_same_bits_and_others_may_not_be() {
     let expected = rows(&own);
 
     // Compiled by rustc.
-    let compiled: Box<dyn Subject> =
-        Copies::subject(Box::new(ulna_generated::Ssrms), ulna_generated::Ssrms::CHAIN);
+    let compiled: Box<dyn Subject> = Copies::subject(
+        Box::new(ulna_generated::Ssrms),
+        ulna_generated::Ssrms::CHAIN,
+    );
     let compiled = Campaign::new(&*compiled, &scenario).unwrap();
     assert_eq!(compiled.identity(), own.identity());
     assert!(rows(&compiled) == expected);
