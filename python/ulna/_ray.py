@@ -74,7 +74,8 @@ def make(
     missing = [number for number in range(1, shards + 1) if not native.is_there(folder, (number, shards))]
     made = sum(native.size(number, shards) for number in missing)
     done = native.cases - made
-    report.shards(shards - len(missing), shards)
+    there = shards - len(missing)
+    report.shards(there, shards)
     report.cases(done)
     if not missing:
         return 0
@@ -101,10 +102,10 @@ def make(
                     number = running.pop(reference)
                     native.store(folder, number, shards, *_result(ray, reference, number, shards))
                     done += native.size(number, shards)
-                    missing.remove(number)
-                    report.shards(shards - len(missing), shards)
+                    there += 1
+                    report.shards(there, shards)
                     report.cases(done)
-                start(_in_flight(ray) - len(running))
+                start(max(0, _in_flight(ray) - len(running)))
         finally:
             for reference in running:
                 ray.cancel(reference, force=True)
