@@ -1,7 +1,7 @@
 //! [`Campaign`]: a scenario's campaign, in one go or in shards, as files or as bytes.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -24,10 +24,25 @@ pub(crate) struct Campaign {
 /// A shard as its number, from 1, and how many there are; none for all cases.
 type Numbers = Option<(u64, u64)>;
 
-/// Keeps others away from a folder as long as it lives.
+/// Keeps others away from a folder until it is left, as a context.
 #[pyclass(frozen, module = "ulna._ulna")]
 pub(crate) struct FolderLock {
-    _lock: Lock,
+    lock: Mutex<Option<Lock>>,
+}
+
+#[pymethods]
+impl FolderLock {
+    fn __enter__(&self) {}
+
+    // Not when Python drops it: the frames of an exception may live on.
+    fn __exit__(&self, _kind: Py<PyAny>, _error: Py<PyAny>, _traceback: Py<PyAny>) {
+        drop(
+            self.lock
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .take(),
+        );
+    }
 }
 
 impl Campaign {
@@ -215,7 +230,9 @@ impl Campaign {
                 lock.map_err(|error| format!("{error:#}"))
             });
         let lock = taken.map_err(|error| CampaignError::new_err(in_python(&error)))?;
-        Ok(FolderLock { _lock: lock })
+        Ok(FolderLock {
+            lock: Mutex::new(Some(lock)),
+        })
     }
 
     /// Puts all `of` shards of `folder` together there, as campaign.csv. `told` hears how many files are done.

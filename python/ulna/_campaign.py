@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import os
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -102,13 +103,12 @@ def campaign(
         elif native.is_there(folder, None):
             made = 0
         else:
-            lock = native.lock(folder)
-            if engine == "ray":
-                made = _ray.make(native, scenario, folder, shards, threads, address, report)
-            else:
-                made = _one_by_one(native, folder, shards, threads or 0, report)
-            # The merge takes it for itself.
-            del lock
+            # The merge takes the folder for itself.
+            with native.lock(folder):
+                if engine == "ray":
+                    made = _ray.make(native, scenario, folder, shards, threads, address, report)
+                else:
+                    made = _one_by_one(native, folder, shards, threads or 0, report)
             report.says("putting the shards together")
             native.merge(folder, shards, report.nothing)
     return Campaign(folder / "campaign.csv", folder / "campaign.json", native.cases, native.seed, made, shards)
@@ -118,7 +118,7 @@ def _one_by_one(native: _ulna.Campaign, folder: Path, shards: int, threads: int,
     """All shards, each on all threads; how many cases had to be made."""
     made = before = 0
     for number in range(1, shards + 1):
-        made += native.make(folder, (number, shards), threads, lambda rows, before=before: report.cases(before + rows))
+        made += native.make(folder, (number, shards), threads, partial(report.more, before))
         before += native.size(number, shards)
     return made
 

@@ -34,6 +34,10 @@ class Report:
             start, before = self._first
             self.says(f"{self._shards}{done} of {self._total} cases{_pace(done - before, self._total - done, now - start)}")
 
+    def more(self, before: int, done: int) -> None:
+        """So many are there beside those of ``before``."""
+        self.cases(before + done)
+
     def shards(self, done: int, total: int) -> None:
         """So many shards are there; said before the cases are counted."""
         self._shards = f"{done} of {total} shards, "

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use ulna_campaign::Campaign;
 
 /// What a case costs one thread of this machine, s: as many are made as take a second, all over the campaign.
-pub(crate) fn seconds_a_case(range: &Range<u64>, make: Make<'_>) -> f64 {
+pub(super) fn seconds_a_case(campaign: &Campaign<'_>) -> f64 {
     const PATIENCE: Duration = Duration::from_secs(1);
     const MOST: u64 = 1000;
     let cases = campaign.cases();
