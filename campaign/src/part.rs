@@ -35,9 +35,9 @@ pub struct Part {
 
 impl Part {
     /// Of a campaign of `cases`.
-    pub fn new(folder: &Path, shard: Option<Shard>, cases: u64) -> Self {
+    pub fn new(folder: PathBuf, shard: Option<Shard>, cases: u64) -> Self {
         Self {
-            folder: folder.to_path_buf(),
+            folder,
             shard,
             cases,
         }

@@ -46,7 +46,7 @@ impl FolderLock {
 }
 
 impl Campaign {
-    fn part(&self, folder: &Path, shard: Numbers) -> PyResult<Part> {
+    fn part(&self, folder: PathBuf, shard: Numbers) -> PyResult<Part> {
         let cases = self.scenario.campaign().cases();
         let shard = shard.map(|(number, of)| {
             let found = Shard::new(number, of).filter(|_| of <= cases);
@@ -99,9 +99,9 @@ fn in_python(text: &str) -> String {
 
 /// Tells Python how far it is, and hears from it that it is to stop. Signals such as Ctrl-C only the main thread hears, if that is
 /// who called.
-struct Told<'a>(&'a Py<PyAny>);
+struct Told(Py<PyAny>);
 
-impl Watch for Told<'_> {
+impl Watch for Told {
     fn begins(&self, rows: u64, _: u64, _: &Path) {
         // What it says of that, it says when the next rows are written.
         let _ = self.written(rows);
@@ -159,7 +159,7 @@ impl Campaign {
 
     /// How many cases a shard has.
     fn size(&self, number: u64, of: u64) -> PyResult<u64> {
-        let range = self.part(Path::new(""), Some((number, of)))?.range();
+        let range = self.part(PathBuf::new(), Some((number, of)))?.range();
         Ok(range.end - range.start)
     }
 
@@ -170,18 +170,19 @@ impl Campaign {
         folder: PathBuf,
         shard: Numbers,
         threads: Option<usize>,
-        told: Py<PyAny>,
+        told: &Bound<'_, PyAny>,
     ) -> PyResult<u64> {
-        let part = self.part(&folder, shard)?;
+        let part = self.part(folder, shard)?;
         let pool = pool(resolved(threads))?;
+        let told = Told(told.clone().unbind());
         self.with(py, |campaign| {
-            Ok(ulna_campaign::make(&part, campaign, false, &pool, &Told(&told))?.made)
+            Ok(ulna_campaign::make(&part, campaign, false, &pool, &told)?.made)
         })
     }
 
     /// Whether a part is whole in `folder`, and good.
     fn is_there(&self, py: Python<'_>, folder: PathBuf, shard: Numbers) -> PyResult<bool> {
-        let part = self.part(&folder, shard)?;
+        let part = self.part(folder, shard)?;
         self.with(py, |campaign| ulna_campaign::is_there(&part, campaign))
     }
 
@@ -192,13 +193,12 @@ impl Campaign {
         number: u64,
         of: u64,
         threads: Option<usize>,
-        told: Py<PyAny>,
+        told: &Bound<'_, PyAny>,
     ) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>)> {
-        let part = self.part(Path::new(""), Some((number, of)))?;
+        let part = self.part(PathBuf::new(), Some((number, of)))?;
         let pool = pool(resolved(threads))?;
-        let shipped = self.with(py, |campaign| {
-            Shipped::make(&part, campaign, &pool, &Told(&told))
-        })?;
+        let told = Told(told.clone().unbind());
+        let shipped = self.with(py, |campaign| Shipped::make(&part, campaign, &pool, &told))?;
         Ok((
             PyBytes::new(py, &shipped.rows),
             PyBytes::new(py, &shipped.record),
@@ -215,15 +215,16 @@ impl Campaign {
         rows: Vec<u8>,
         record: Vec<u8>,
     ) -> PyResult<()> {
-        let part = self.part(&folder, Some((number, of)))?;
+        let part = self.part(folder, Some((number, of)))?;
         let shipped = Shipped { rows, record };
         self.with(py, |campaign| shipped.store(&part, campaign))
     }
 
     /// Takes `folder` for itself, which is made if need be.
     fn lock(&self, folder: PathBuf) -> PyResult<FolderLock> {
-        let part = self.part(&folder, None)?;
-        let taken = std::fs::create_dir_all(&folder)
+        let part = self.part(folder, None)?;
+        let folder = part.folder();
+        let taken = std::fs::create_dir_all(folder)
             .map_err(|error| format!("cannot make the folder {}: {error}", folder.display()))
             .and_then(|()| {
                 let lock = Lock::take(&part.file("lock"), &part.to_string());
@@ -236,15 +237,20 @@ impl Campaign {
     }
 
     /// Puts all `of` shards of `folder` together there, as campaign.csv. `told` hears how many files are done.
-    fn merge(&self, py: Python<'_>, folder: PathBuf, of: u64, told: Py<PyAny>) -> PyResult<()> {
-        let parts = (1..=of).map(|number| self.part(&folder, Some((number, of))));
+    fn merge(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        of: u64,
+        told: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let parts = (1..=of).map(|number| self.part(folder.clone(), Some((number, of))));
         let manifests = parts.map(|part| Ok(part?.file("json")));
         let manifests = manifests.collect::<PyResult<Vec<_>>>()?;
-        let output = self.part(&folder, None)?.file("csv");
+        let output = self.part(folder, None)?.file("csv");
+        let told = Told(told.clone().unbind());
         let merged = py.detach(|| {
-            ulna_campaign::merge(&manifests, &output, &mut |done, _| {
-                Told(&told).written(done)
-            })
+            ulna_campaign::merge(&manifests, &output, &mut |done, _| told.written(done))
         });
         match merged.map_err(|error| Failed::Files(error).exception())? {
             Ok(_) => Ok(()),

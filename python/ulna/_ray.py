@@ -7,7 +7,6 @@ import logging
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import lru_cache
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -117,10 +116,17 @@ def _shard(text: str, source: Path, table: str, cases: int, seed: int, number: i
     return _campaign(text, source, table, cases, seed).shipped(number, shards, 1, Report.nothing)
 
 
-@lru_cache(maxsize=1)
+#: The campaign that this worker was last at: machine code is made of a table once by each, not for each shard.
+_last: tuple[tuple[object, ...], _ulna.Campaign] | None = None
+
+
 def _campaign(text: str, source: Path, table: str, cases: int, seed: int) -> _ulna.Campaign:
-    """Machine code is made of a table once by each worker, not for each shard."""
-    return _ulna.Campaign(_ulna.restore_scenario(text, source, table), cases, seed)
+    """The campaign of a task."""
+    global _last
+    task = (text, source, table, cases, seed)
+    if _last is None or _last[0] != task:
+        _last = (task, _ulna.Campaign(_ulna.restore_scenario(text, source, table), cases, seed))
+    return _last[1]
 
 
 def _result(ray: Any, reference: Any, number: int, shards: int) -> tuple[bytes, bytes]:

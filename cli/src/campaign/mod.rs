@@ -106,7 +106,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
              then sums up the first of them"
         );
     }
-    let part = Part::new(&arguments.output, arguments.shard, cases);
+    let part = Part::new(arguments.output.clone(), arguments.shard, cases);
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
