@@ -8,6 +8,7 @@ use pyo3::types::PyBytes;
 use ulna_campaign::{Part, Shipped, Watch};
 use ulna_experiments::Subject;
 use ulna_files::Lock;
+use ulna_study::LawName;
 use ulna_study::experiment::Shard;
 
 use crate::errors::{CampaignError, ExperimentError};
@@ -154,7 +155,7 @@ impl Campaign {
     #[getter]
     fn laws(&self) -> Vec<&'static str> {
         let laws = self.scenario.campaign().laws();
-        laws.iter().map(|law| law.name()).collect()
+        laws.iter().map(LawName::name).collect()
     }
 
     /// How many cases a shard has.
