@@ -66,7 +66,10 @@ fn the_planar_arm_in_full() {
 fn the_planar_arm_in_c_in_full() {
     let model = load("planar_2r");
     let c = Generator::new().generate_c(&model, "arms/planar_2r.toml", COptions::new());
-    let [(header_name, header), (source_name, source)] = c.files();
+    let files = c.files();
+    let [(header_name, header), (source_name, source)] = files.as_slice() else {
+        panic!("{} files", files.len());
+    };
     insta::assert_snapshot!(format!(
         "{header_name}\n\n{header}\n{source_name}\n\n{source}"
     ));

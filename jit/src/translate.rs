@@ -62,7 +62,10 @@ pub(crate) fn translate(
         .and_then(|translator| translator.translate(program))
         .map_err(failed)?;
     let compiled = context
-        .compile(&*host.isa, &mut ControlPlane::default())
+        .compile(
+            host.isa_for(program.steps.len()),
+            &mut ControlPlane::default(),
+        )
         .map_err(|error| failed(format!("{:?}", error.inner)))?;
     if !compiled.buffer.relocs().is_empty() {
         return Err(failed("its code is not complete in itself".to_owned()));
@@ -90,14 +93,30 @@ fn layout(method: Method, joints: usize) -> Layout {
     }
 }
 
-/// Whether the program's results are those of the method.
+/// Whether the program's results are those of the method, and each step is computed before it is read.
 fn check(program: &Program, layout: &Layout) -> Result<(), String> {
     let results = program.outputs.iter().map(|output| output.elements.len());
-    if results.eq(layout.results.iter().copied()) {
-        Ok(())
-    } else {
-        Err("its results are of other shapes".to_owned())
+    if !results.eq(layout.results.iter().copied()) {
+        return Err("its results are of other shapes".to_owned());
     }
+    for (index, step) in program.steps.iter().enumerate() {
+        for operand in [step.a, step.b] {
+            if let Operand::Step(read) = operand
+                && read >= index
+            {
+                return Err(format!("step {index} reads step {read}"));
+            }
+        }
+    }
+    let elements = program.outputs.iter().flat_map(|output| &output.elements);
+    for element in elements {
+        if let Operand::Step(read) = element
+            && *read >= program.steps.len()
+        {
+            return Err(format!("a result is step {read}, which there is not"));
+        }
+    }
+    Ok(())
 }
 
 /// The function in the making.
@@ -129,8 +148,8 @@ impl<'a> Translator<'a> {
         method: Method,
         layout: &'a Layout,
     ) -> Result<Self, String> {
-        let pointer = host.isa.pointer_type();
-        function.signature.call_conv = host.isa.default_call_conv();
+        let pointer = host.isa_for(0).pointer_type();
+        function.signature.call_conv = host.isa_for(0).default_call_conv();
         function.signature.params = vec![AbiParam::new(pointer); 3];
         let block = function.dfg.make_block();
         let [from, to, sines] = [(); 3].map(|()| function.dfg.append_block_param(block, pointer));

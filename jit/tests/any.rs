@@ -6,9 +6,9 @@ use std::thread;
 use ulna::internal::numbers;
 use ulna::nalgebra::Vector2;
 use ulna::proof::{self, State, states};
-use ulna::{Argument, Arm, Method, Payload, PayloadError, Unrolled as _};
-use ulna_codegen::Generator;
-use ulna_generated::{Geared6, Planar2R};
+use ulna::{Argument, Arm, Method, Payload, PayloadError};
+use ulna_codegen::{Generator, Input, Operand};
+use ulna_generated::{Geared6, Planar2r};
 use ulna_jit::{AnyJit, CallError, Error, Jit};
 use ulna_table::Model;
 
@@ -42,7 +42,7 @@ fn arguments<const N: usize>(method: Method, state: &State<N>) -> Vec<Vec<f64>> 
 fn slices_hold_what_the_arm_returns_alone_and_in_batches() {
     let any = planar();
     let arm = Jit::<2>::new(any.clone()).unwrap();
-    let states: Vec<State<2>> = states(&Planar2R::CHAIN).take(5).collect();
+    let states: Vec<State<2>> = states(&Planar2r::CHAIN).take(5).collect();
     for method in Method::ALL {
         let length = any.length(*method);
         let mut expected = Vec::new();
@@ -93,12 +93,10 @@ fn shapes_are_those_that_users_see() {
 fn a_singular_task_has_no_gradient() {
     let arm = Jit::<2>::new(planar()).unwrap();
     let zero = (0.0, Vector2::zeros());
-    for elbow in [0.0, 4e5 * std::f64::consts::PI] {
-        let q = Vector2::new(0.3, elbow);
-        assert_eq!(arm.dynamic_manipulability_gradient(&q), zero);
-        let (jacobian, w, gradient) = arm.jacobian_and_gradient(&q);
-        assert!((w, gradient) == zero && jacobian.norm() > 1.0);
-    }
+    let q = Vector2::new(0.3, 0.0);
+    assert_eq!(arm.dynamic_manipulability_gradient(&q), zero);
+    let (jacobian, w, gradient) = arm.jacobian_and_gradient(&q);
+    assert!((w, gradient) == zero && jacobian.norm() > 1.0);
     let (w, gradient) = arm.dynamic_manipulability_gradient(&Vector2::new(0.3, 0.1));
     assert!(w > 0.0 && gradient.norm() > 0.0);
     let nowhere = arm.mass_matrix(&Vector2::new(0.0, f64::INFINITY));
@@ -185,7 +183,7 @@ fn what_is_not_compiled_is_refused_or_left_to_the_textbook() {
         .call(Method::GravityTorque, &[&[0.0; 2]], &mut [0.0; 2]);
     assert_eq!(refused, Err(CallError::NotCompiled(Method::GravityTorque)));
     let q = Vector2::new(0.3, 0.4);
-    assert_eq!(arm.gravity_torque(&q), Planar2R::CHAIN.gravity_torque(&q));
+    assert_eq!(arm.gravity_torque(&q), Planar2r::CHAIN.gravity_torque(&q));
 }
 
 /// Programs are public, and may be anything.
@@ -194,12 +192,23 @@ fn a_program_of_another_arm_is_refused() {
     let foreign = ulna_codegen::compile(&model("planar_3r"));
     let refused = AnyJit::of(&model("planar_2r"), &foreign);
     assert!(matches!(refused, Err(Error::Program { .. })), "{refused:?}");
-    let mut broken = Generator::new()
-        .methods(&[Method::MassMatrix])
-        .compile(&model("planar_2r"));
-    broken.methods[0].program.steps.reverse();
-    let refused = AnyJit::of(&model("planar_2r"), &broken);
-    assert!(matches!(refused, Err(Error::Program { .. })), "{refused:?}");
+    let operands = [
+        Operand::Step(0),
+        Operand::Input(Input::Q(2)),
+        Operand::Input(Input::Sin(9)),
+        Operand::Input(Input::Tau(0)),
+    ];
+    for operand in operands {
+        let mut broken = Generator::new()
+            .methods(&[Method::MassMatrix])
+            .compile(&model("planar_2r"));
+        broken.methods[0].program.steps[0].a = operand;
+        let refused = AnyJit::of(&model("planar_2r"), &broken);
+        assert!(
+            matches!(refused, Err(Error::Program { .. })),
+            "{operand:?}: {refused:?}"
+        );
+    }
 }
 
 /// No page of this process, all code in memory among them, is writable and executable at once.

@@ -10,7 +10,7 @@ fn bits<A: Arm<N>, const N: usize>(arm: &A, method: Method, state: &State<N>) ->
     let mut bits = Vec::new();
     // Of a zero the sign is free.
     numbers(arm, method, state, |number| {
-        bits.push((number + 0.0).to_bits())
+        bits.push((number + 0.0).to_bits());
     });
     bits
 }

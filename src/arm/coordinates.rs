@@ -42,7 +42,7 @@ pub(crate) fn are_plain<const N: usize>(q: &[f64; N]) -> bool {
     largest(q.map(f64::abs)) <= PLAIN_LIMIT
 }
 
-/// [`are_plain`], for who knows their number at run time.
+/// Whether kernels may read joint coordinates as they are, for who knows their number at run time.
 #[inline]
 pub fn is_plain(q: &[f64]) -> bool {
     !q.iter().any(|q| q.abs() > PLAIN_LIMIT)

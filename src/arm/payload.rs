@@ -200,7 +200,7 @@ pub fn carry(joints: &mut [Joint], tool: &Placement, payload: &Payload) {
     };
 }
 
-/// [`SerialChain::admit`] of joints that [carry](carry) the payload.
+/// [`SerialChain::admit`] of joints that [`carry`] the payload.
 ///
 /// # Errors
 /// As there.

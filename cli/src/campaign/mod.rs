@@ -88,8 +88,8 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         bail!("{shards} shards of {cases} cases: there may be as many shards as cases");
     }
     output::check_folder(&arguments.output)?;
+    let arm = arms::subject(scenario.arm())?;
     if arguments.slurm {
-        let arm = arms::subject(scenario.arm())?;
         let seconds = seconds_a_case(&Campaign::new(&*arm, &scenario)?);
         let script = slurm::Script::new(&scenario, arguments, seconds)?;
         script
@@ -111,7 +111,6 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()?;
-    let arm = arms::subject(scenario.arm())?;
     let campaign = Campaign::new(&*arm, &scenario)?;
     let keep = arguments.shard.is_none();
     let bar = Bar::new()?;

@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::bail;
+use clap::error::ErrorKind;
 use clap::{Args, ValueEnum};
-use ulna_codegen::{Abi, COptions, Precision};
+use ulna_codegen::{Abi, COptions, Generator, Precision};
 
-use super::{Arguments, check};
+use super::{Arguments, check, usage};
 use crate::console;
 use crate::output::{Files, check_folder};
 use crate::progress::Progress;
@@ -38,7 +39,7 @@ enum Scalar {
 /// An interface that others read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Interface {
-    /// What `casadi.external` reads
+    /// Inverse and forward dynamics with their Jacobians as `casadi.external` reads them, in NAME_casadi.h and NAME_casadi.c
     Casadi,
 }
 
@@ -107,11 +108,15 @@ impl Options {
 /// Writes both files to `folder`, or checks them.
 pub(super) fn run(arguments: &Arguments, folder: &Path) -> anyhow::Result<()> {
     let model = console::load(&arguments.table)?;
+    let generator = arguments.methods.generator();
+    if let Some(Interface::Casadi) = arguments.c.abi {
+        refuse_incomplete(arguments, &generator, model.has_payload());
+    }
     if !arguments.check {
         check_folder(folder)?;
     }
     let progress = Progress::new()?;
-    let generated = arguments.methods.generator().generate_c_watched(
+    let generated = generator.generate_c_watched(
         &model,
         &arguments.table.display().to_string(),
         arguments.c.options(),
@@ -127,6 +132,31 @@ pub(super) fn run(arguments: &Arguments, folder: &Path) -> anyhow::Result<()> {
         files.add(name, text);
     }
     files.write_to(folder).map(drop)
+}
+
+/// Ends the program where there is no such interface: CasADi's numbers are doubles, and its functions call methods.
+fn refuse_incomplete(arguments: &Arguments, generator: &Generator, has_payload: bool) {
+    if arguments.c.precision == Some(Scalar::Float) {
+        usage(
+            ErrorKind::ArgumentConflict,
+            "`--abi casadi` is in double precision, as CasADi is: leave out `--precision float`",
+        );
+    }
+    let missing: Vec<&str> = Abi::Casadi
+        .methods(has_payload)
+        .into_iter()
+        .filter(|method| !generator.chosen().contains(*method))
+        .map(ulna_codegen::Method::name)
+        .collect();
+    if !missing.is_empty() {
+        usage(
+            ErrorKind::ArgumentConflict,
+            &format!(
+                "`--abi casadi` is made of more methods: add {} to `--methods`, or leave that out",
+                missing.join(",")
+            ),
+        );
+    }
 }
 
 /// Fails if one of the files is not what it should be, and says so of both.

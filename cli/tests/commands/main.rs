@@ -3,6 +3,7 @@
 mod assess;
 mod by_table;
 mod campaign;
+mod casadi;
 mod check;
 mod convert;
 mod cost;

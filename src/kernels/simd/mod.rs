@@ -1,6 +1,6 @@
 //! Instructions that the machine has and the compiler was not told of: fused multiply-adds for programs built without flags.
 //!
-//! The only module with `unsafe` in it. What makes it sound: a function compiled for an instruction set is called only
+//! The only module of this crate with `unsafe` in it. What makes it sound: a function compiled for an instruction set is called only
 //! after the processor has been asked for it.
 //!
 //! What runs on these scalars must end up inside such a function, or each instruction becomes a call: functions over

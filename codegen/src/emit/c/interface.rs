@@ -1,21 +1,37 @@
-//! What is written beside the functions of the methods, for an [interface](Abi) that is asked for.
+//! What is written beside an arm's two files, for an [interface](Abi) that is asked for.
 
+use super::casadi;
 use super::options::Abi;
 use super::target::Target;
 use crate::Compiled;
 
-/// Functions beside those of the methods.
-#[derive(Default)]
-pub(super) struct Further {
-    /// For the header: docs and declarations.
-    pub(super) prototypes: Vec<String>,
-    /// For the source file.
-    pub(super) definitions: Vec<String>,
+/// A file's name and its text.
+pub(super) type File = (String, String);
+
+/// The files of the interface that the options ask for; `about` says where they come from.
+pub(super) fn further(target: &Target<'_>, compiled: &Compiled, about: &[String]) -> Vec<File> {
+    match target.options.abi {
+        None => Vec::new(),
+        Some(Abi::Casadi) => casadi::further(target, compiled, about),
+    }
 }
 
-/// The functions of the interface that the options ask for.
-pub(super) fn further(target: &Target<'_>, _compiled: &Compiled) -> Further {
-    match target.options.abi {
-        None | Some(Abi::Casadi) => Further::default(),
-    }
+/// A header that may be included twice, and from C++: `above` are comments, `guard` is in lower case.
+pub(super) fn guarded(guard: &str, above: &str, prototypes: &str) -> String {
+    let guard = guard.to_uppercase();
+    format!(
+        "{above}#ifndef {guard}
+#define {guard}
+
+#ifdef __cplusplus
+extern \"C\" {{
+#endif
+{prototypes}
+#ifdef __cplusplus
+}}
+#endif
+
+#endif
+"
+    )
 }

@@ -3,6 +3,7 @@
 //! [`GeneratedC`] is a header with a documented prototype for each method, and a source file that defines them: C99, no allocation, nothing
 //! but `sin`, `cos` and `sqrt` of the mathematical library.
 
+mod casadi;
 mod documentation;
 mod expression;
 mod function;
@@ -23,18 +24,20 @@ use super::plan::{Coordinates, Plan, header};
 use crate::cost::Counts;
 use crate::{Compiled, Stage};
 use function::Function;
+use interface::File;
 use lines::comment;
 use target::Target;
 
 /// Above the methods that are not generated.
 const ABSENT: &str = "Not generated:";
 
-/// The C code of an arm: `NAME.h` and `NAME.c`.
+/// The C code of an arm: `NAME.h` and `NAME.c`, and `NAME_casadi.h` and `NAME_casadi.c` if they are asked for.
 #[derive(Debug)]
 pub struct GeneratedC {
     name: String,
     header: String,
     source: String,
+    further: Vec<File>,
     counts: Vec<(Method, Counts)>,
     warnings: Vec<String>,
 }
@@ -79,13 +82,11 @@ impl GeneratedC {
             prototypes.push(function.prototype());
             definitions.push(function.definition());
         }
-        let further = interface::further(&target, compiled);
-        prototypes.extend(further.prototypes);
-        definitions.extend(further.definitions);
         Self {
             name: model.name().to_owned(),
             header: header_file(&target, &about, &prototypes),
             source: source_file(&target, &about, &definitions),
+            further: interface::further(&target, compiled, &about[..about.len().min(2)]),
             counts,
             warnings: compiled.warnings.clone(),
         }
@@ -101,10 +102,13 @@ impl GeneratedC {
         &self.source
     }
 
-    /// Both files: what each is called, and its text.
-    pub fn files(&self) -> [(String, &str); 2] {
-        [("h", self.header()), ("c", self.source())]
-            .map(|(extension, text)| (format!("{}.{extension}", self.name), text))
+    /// All files: what each is called, and its text. Both, and behind them those of the [interface](Abi) that was asked for.
+    pub fn files(&self) -> Vec<(String, &str)> {
+        let own = [("h", self.header()), ("c", self.source())]
+            .map(|(extension, text)| (format!("{}.{extension}", self.name), text));
+        let further = self.further.iter();
+        let further = further.map(|(name, text)| (name.clone(), text.as_str()));
+        own.into_iter().chain(further).collect()
     }
 
     /// What the user should know of the arm; a sentence each.

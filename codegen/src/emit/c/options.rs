@@ -1,5 +1,9 @@
 //! [`COptions`]: what C is written.
 
+use ulna::Method;
+
+use super::casadi;
+
 /// What C is written of an arm: in double precision, in functions of at most [`COptions::FUNCTION_LENGTH`] statements, unless it is told otherwise.
 ///
 /// ```
@@ -26,8 +30,18 @@ pub enum Precision {
 /// A binary interface that is offered besides the functions of the methods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Abi {
-    /// That of `casadi.external`.
+    /// That of `casadi.external`: `NAME_casadi_inverse_dynamics`, `NAME_casadi_forward_dynamics` and their Jacobians. In double precision alone,
+    /// which is CasADi's; of the methods that it is made of none may be left out.
     Casadi,
+}
+
+impl Abi {
+    /// The methods that it is made of; an arm with a payload takes one more.
+    pub fn methods(self, has_payload: bool) -> Vec<Method> {
+        match self {
+            Self::Casadi => casadi::needed(has_payload),
+        }
+    }
 }
 
 impl Default for COptions {

@@ -1,6 +1,6 @@
 //! Values as expressions: no language's, but with all that languages need to know decided.
 
-pub(in crate::emit) use super::latency::Summand;
+use super::latency::Summand;
 use super::{Coordinates, argument_name, coordinate_name};
 use crate::graph::Input;
 use crate::op::Op;

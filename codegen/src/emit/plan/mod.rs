@@ -26,11 +26,6 @@ use expression::Expressions;
 use inline::{inlined, is_plain};
 use names::{Names, angle_names};
 
-/// Which summand of each step is fused with it in the code that is emitted. Its product is then no operation of its own.
-pub fn fused_summands(program: &Program) -> Vec<Option<Summand>> {
-    latency::fused(program, &inlined(program))
-}
-
 /// What the arm carries, as an argument.
 pub(super) const PAYLOAD: &str = "payload";
 
@@ -107,6 +102,11 @@ impl Element<'_> {
     pub(super) fn is_zero(&self) -> bool {
         matches!(self.expression, Expression::Number(x) if x == 0.0)
     }
+}
+
+/// Which summand of each step is fused with it in the code that is emitted. Its product is then no operation of its own.
+pub fn fused_summands(program: &Program) -> Vec<Option<Summand>> {
+    latency::fused(program, &inlined(program))
 }
 
 impl<'p> Plan<'p> {
