@@ -268,11 +268,18 @@ def test_a_lost_workers_shard_is_made_again(ray, scenario, whole, tmp_path, monk
 
 
 @needs_ray
-def test_ray_makes_the_same_file_and_goes_on(ray, scenario, whole, tmp_path):
-    made = ulna.campaign(scenario, output=tmp_path, cases=CASES, engine="ray")
+def test_ray_makes_the_same_file_and_goes_on(ray, whole, tmp_path):
+    """Of an own table as well, which workers have not."""
+    home = tmp_path / "home"
+    home.mkdir()
+    (home / "own.toml").write_text(PAPER.read_text().replace('arm = "ssrms"', 'arm = "mine.toml"'))
+    (home / "mine.toml").write_text((ROOT / "arms" / "ssrms.toml").read_text())
+    own = ulna.Scenario.load(home / "own.toml")
+    shutil.rmtree(home)
+    made = ulna.campaign(own, output=tmp_path, cases=CASES, engine="ray")
     assert made.shards == 1
     same(made, whole)
-    assert ulna.campaign(scenario, output=tmp_path, cases=CASES, engine="ray").made == 0
+    assert ulna.campaign(own, output=tmp_path, cases=CASES, engine="ray").made == 0
 
 
 @needs_ray
