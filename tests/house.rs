@@ -21,12 +21,19 @@ const ARROWS: &[(&str, &[&str])] = &[
         "ulna-experiments",
         &["ulna", "ulna-jit", "ulna-study", "ulna-table"],
     ),
+    ("ulna-files", &[]),
+    (
+        "ulna-campaign",
+        &["ulna", "ulna-experiments", "ulna-files", "ulna-study"],
+    ),
     (
         "ulna-cli",
         &[
             "ulna",
+            "ulna-campaign",
             "ulna-codegen",
             "ulna-experiments",
+            "ulna-files",
             "ulna-generated",
             "ulna-study",
             "ulna-table",
@@ -38,8 +45,10 @@ const ARROWS: &[(&str, &[&str])] = &[
         "ulna-python",
         &[
             "ulna",
+            "ulna-campaign",
             "ulna-codegen",
             "ulna-experiments",
+            "ulna-files",
             "ulna-jit",
             "ulna-study",
             "ulna-table",

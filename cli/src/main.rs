@@ -23,8 +23,8 @@ mod numbers;
 mod output;
 mod progress;
 mod reproduce;
-mod rows;
 mod setting;
+mod stdout;
 mod verify;
 
 use std::io::{self, Write};
@@ -32,6 +32,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use output::Stdout;
+use ulna_files::rows;
 use ulna_study::scenario::ScenarioErrors;
 use ulna_table::TableErrors;
 

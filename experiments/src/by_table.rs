@@ -26,7 +26,7 @@ where
             no_code: None,
         },
         Err(error) => ByTable {
-            subject: Copies::subject(Box::new(chain), chain),
+            subject: Copies::textbook(chain),
             no_code: Some(error),
         },
     })

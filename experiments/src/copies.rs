@@ -16,8 +16,11 @@ pub struct Copies;
 
 /// A number of joints that experiments are compiled for.
 pub trait CompiledFor<const N: usize> {
-    /// `arm`, whose `chain` is the same arm as data, for experiments.
+    /// `arm`, generated code whose `chain` is the same arm as data, for experiments.
     fn subject(arm: Box<dyn Arm<N> + Send + Sync>, chain: SerialChain<N>) -> Box<dyn Subject>;
+
+    /// The arm `chain`, computed by the textbook.
+    fn textbook(chain: SerialChain<N>) -> Box<dyn Subject>;
 }
 
 macro_rules! copies {
@@ -28,7 +31,11 @@ macro_rules! copies {
                     arm: Box<dyn Arm<$joints> + Send + Sync>,
                     chain: SerialChain<$joints>,
                 ) -> Box<dyn Subject> {
-                    Box::new(Held { arm, chain })
+                    Box::new(Held { arm, chain, is_textbook: false })
+                }
+
+                fn textbook(chain: SerialChain<$joints>) -> Box<dyn Subject> {
+                    Box::new(Held { arm: Box::new(chain), chain, is_textbook: true })
                 }
             }
         )+

@@ -27,6 +27,13 @@ pub trait Subject: Send + Sync {
     /// The rows of the Jacobian that make up its task.
     fn task(&self) -> TaskRows;
 
+    /// The arm as data, every number of it: arms of the same text are the same arm, whatever computes them.
+    fn data(&self) -> String;
+
+    /// Whether the textbook computes it. Otherwise it is generated code, by the compiler or made of the table at run time, which
+    /// have the same formulas and give the same bits.
+    fn is_textbook(&self) -> bool;
+
     /// The arm as a mechanism, at each failure time of `scenario`.
     ///
     /// # Errors
@@ -121,6 +128,7 @@ pub(crate) struct Held<const N: usize> {
     pub(crate) arm: Box<dyn Arm<N> + Send + Sync>,
     /// The same as data, which knows where its links are.
     pub(crate) chain: SerialChain<N>,
+    pub(crate) is_textbook: bool,
 }
 
 impl<const N: usize> Held<N> {
@@ -136,6 +144,14 @@ impl<const N: usize> Subject for Held<N> {
 
     fn task(&self) -> TaskRows {
         self.chain.task
+    }
+
+    fn data(&self) -> String {
+        format!("{:?}", self.chain)
+    }
+
+    fn is_textbook(&self) -> bool {
+        self.is_textbook
     }
 
     fn mechanics(&self, scenario: &Scenario) -> Result<Vec<LockMechanics>, ExperimentError> {

@@ -47,6 +47,10 @@ impl Arm {
         &self.model
     }
 
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
     pub(crate) fn source(&self) -> &str {
         &self.source
     }

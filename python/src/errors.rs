@@ -3,7 +3,7 @@
 use std::ffi::CString;
 
 use pyo3::create_exception;
-use pyo3::exceptions::{PyUserWarning, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use ulna_table::diagnostics::{Diagnostic, Diagnostics, Severity};
 
@@ -38,6 +38,13 @@ create_exception!(
     ExperimentError,
     PyValueError,
     "An experiment cannot be made: the motion cannot be executed, nothing keeps the limits, or a number makes no experiment."
+);
+create_exception!(
+    ulna,
+    CampaignError,
+    PyRuntimeError,
+    "Files of a campaign cannot be made, gone on with or put together; the text says what to do about it.\n\n\
+     They are those of another campaign, have been changed, are being made by somebody else, or cannot be read or written."
 );
 create_exception!(
     ulna,

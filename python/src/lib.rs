@@ -2,10 +2,12 @@
 //!
 //! What Python sees is in `ulna/`: classes with types and docs, which call what is here. Here arrays are read and made
 //! (`arguments`, `results`), methods run without Python's lock and on many threads (`run`, `threads`), errors become
-//! exceptions with the program's words (`errors`), and experiments dictionaries of arrays (`experiments`).
+//! exceptions with the program's words (`errors`), experiments dictionaries of arrays (`experiments`), and campaigns
+//! files (`campaign`).
 
 mod arguments;
 mod arm;
+mod campaign;
 mod errors;
 mod experiments;
 mod load;
@@ -23,13 +25,16 @@ mod _ulna {
     #[pymodule_export]
     use crate::arm::Arm;
     #[pymodule_export]
+    use crate::campaign::{Campaign, FolderLock};
+    #[pymodule_export]
     use crate::errors::{
-        DescriptionError, Error, ExperimentError, Finding, ScenarioError, TableError, TableWarning,
+        CampaignError, DescriptionError, Error, ExperimentError, Finding, ScenarioError,
+        TableError, TableWarning,
     };
     #[pymodule_export]
     use crate::experiments::{
         Law, Operation, Plan, Scenario, control_cycle, lock_impact, plan_motion, read_scenario,
-        tables, tables_text,
+        restore_scenario, tables, tables_text,
     };
     #[pymodule_export]
     use crate::load::{import_description, read_table, restore};

@@ -15,11 +15,13 @@ SI units and radians throughout. Twists and wrenches are linear first, ``[v; w]`
 """
 
 from ._arm import Arm, Limits, Payload
+from ._campaign import Campaign, campaign, read_campaign
 from ._experiments import Operation, Plan
 from ._load import arm, arms, load, parse
 from ._reports import Deviation, Report, Verification
 from ._scenario import Experiment, Scenario
 from ._ulna import (
+    CampaignError,
     DescriptionError,
     Error,
     ExperimentError,
@@ -34,6 +36,8 @@ from ._ulna import (
 
 __all__ = [
     "Arm",
+    "Campaign",
+    "CampaignError",
     "DescriptionError",
     "Deviation",
     "Error",
@@ -53,8 +57,10 @@ __all__ = [
     "Verification",
     "arm",
     "arms",
+    "campaign",
     "load",
     "parse",
+    "read_campaign",
     "set_threads",
     "threads",
 ]

@@ -30,7 +30,7 @@ class Experiment(NamedTuple):
 class Scenario:
     """A file's scenario (TOML, as ``ulna help scenario`` has it): an arm, its motion, a lock, experiments. Joints count from 0 here.
 
-    An arm that a scenario calls by name is one of :func:`ulna.arms`.
+    An arm that a scenario calls by name is one of :func:`ulna.arms`. Scenarios pickle, with the table that they name.
     """
 
     __slots__ = ("_arm", "_native")
@@ -52,6 +52,9 @@ class Scenario:
     def parse(cls, text: str, source: str | os.PathLike[str] = "scenario.toml") -> Scenario:
         """The scenario of a text, as of a file ``source``, beside which its table is looked for."""
         return cls(_ulna.read_scenario(source, text))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, self._native.state
 
     def __repr__(self) -> str:
         return f"<ulna.Scenario {self.name}: {self.arm.name}, joints {self.failed_joints} lock at {self.failure_times} s>"
@@ -131,6 +134,11 @@ class Scenario:
             ``cases``, a table of columns for ``pandas.DataFrame``; ``ground_truth``.
         """
         return self._native.assess(threads)
+
+
+def _again(text: str, source: str | os.PathLike[str], table: str) -> Scenario:
+    """The scenario that was in another process, with the text of its arm's table."""
+    return Scenario(_ulna.restore_scenario(text, source, table))
 
 
 def _padded(force: list[list[float]]) -> Array:

@@ -1,21 +1,17 @@
 //! `ulna campaign`: a scenario with every joint failing at many times, varied at random.
 
-mod file;
-mod hashed;
-mod make;
 pub(crate) mod merge;
-mod part;
-mod record;
-mod row;
+mod pace;
 mod slurm;
 mod summary;
+mod watch;
 
 use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Args;
-use ulna_experiments::Subject;
+use ulna_campaign::{Campaign, Part, make};
 use ulna_study::Scenario;
 use ulna_study::experiment::Shard;
 use ulna_study::scenario::CampaignSettings;
@@ -24,11 +20,10 @@ use crate::arms::{self, GENERATED};
 use crate::figures::{self, HeatMap};
 use crate::output::{self, Files};
 use crate::{Verdict, console};
-use make::{Make, make_part, seconds_a_case};
-use part::Part;
-pub(crate) use row::{LawCells, Row};
+use pace::seconds_a_case;
 use summary::Summary;
 pub(crate) use summary::median;
+use watch::Bar;
 
 /// The most cases of a run that sums up: their rows are in memory together, with what is counted of them 0.8 KB each with
 /// six laws.
@@ -95,8 +90,7 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     output::check_folder(&arguments.output)?;
     let arm = arms::subject(scenario.arm())?;
     if arguments.slurm {
-        let range = 0..cases;
-        let seconds = with_cases(&*arm, &scenario, |make| Ok(seconds_a_case(&range, make)))?;
+        let seconds = seconds_a_case(&Campaign::new(&*arm, &scenario)?);
         let script = slurm::Script::new(&scenario, arguments, seconds)?;
         script
             .warnings()
@@ -112,15 +106,17 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
              then sums up the first of them"
         );
     }
-    let part = Part::new(&arguments.output, arguments.shard, cases);
+    let part = Part::new(arguments.output.clone(), arguments.shard, cases);
     let threads = arguments.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()?;
+    let campaign = Campaign::new(&*arm, &scenario)?;
     let keep = arguments.shard.is_none();
-    let work = |make: Make<'_>| make_part(&part, &scenario, keep, make);
-    // Held until the figures are there too.
-    let (rows, _lock) = pool.install(|| with_cases(&*arm, &scenario, work))?;
+    let bar = Bar::new()?;
+    // Its lock is held until the figures are there too.
+    let made = make(&part, &campaign, keep, &pool, &bar)?;
+    bar.ends(made.made);
     if arguments.shard.is_some() {
         for end in ["csv", "json"] {
             console::note(&format!("wrote {}", part.file(end).display()));
@@ -129,9 +125,10 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
     }
 
     let folder = &arguments.output;
+    let rows = &made.rows;
     let laws = scenario.campaign().laws();
-    let map = HeatMap::new(&rows, laws, scenario.arm().joints().len());
-    let summary = Summary::new(&scenario, &rows, arm.task().len());
+    let map = HeatMap::new(rows, laws, scenario.arm().joints().len());
+    let summary = Summary::new(&scenario, rows, arm.task().iter().count());
     writeln!(out, "{}", summary.console())?;
     let footer = format!(
         "arm {}, scenario {}, campaign of {} cases, seed {}",
@@ -151,15 +148,4 @@ pub(crate) fn run(arguments: &Arguments, out: &mut dyn Write) -> anyhow::Result<
         console::note(&format!("wrote {}", path.display()));
     }
     Ok(Verdict::Pass)
-}
-
-/// Does `work` with what makes the scenario's cases.
-fn with_cases<T>(
-    arm: &dyn Subject,
-    scenario: &Scenario,
-    work: impl FnOnce(Make<'_>) -> anyhow::Result<T>,
-) -> anyhow::Result<T> {
-    let cases = arm.campaign(scenario)?;
-    let laws = scenario.campaign().laws();
-    work(&|index| Row::of(&cases.case(index), laws))
 }

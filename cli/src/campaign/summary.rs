@@ -1,9 +1,9 @@
 //! [`Summary`]: a campaign joint by joint, for the console, for `campaign.md` and for `campaign-summary.json`.
 
 use serde::Serialize;
+use ulna_campaign::{CaseCells, LawCells, Row};
 use ulna_study::{LawName, LawSet, Scenario};
 
-use super::row::{CaseCells, LawCells, Row};
 use crate::numbers::significant;
 
 /// By so much, relative, an impact must grow before it counts as made worse: less is rounding.

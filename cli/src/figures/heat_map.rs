@@ -7,12 +7,13 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::colors::colormaps::{ColorMap, ViridisRGB};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{Color, RGBColor};
+use ulna_campaign::{LawCells, Row};
 use ulna_study::LawSet;
 
 use super::chart::{Axes, grid_panel, tick};
 use super::style::{BLACK, Pen, WHITE, anchored};
 use super::{Area, Drawn, Figure};
-use crate::campaign::{LawCells, Row, median};
+use crate::campaign::median;
 
 /// Medians over the cases of each joint and failure time.
 pub(crate) struct HeatMap<'r> {

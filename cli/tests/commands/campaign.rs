@@ -298,6 +298,7 @@ fn another_campaigns_file_is_refused_and_left() {
         assert!(text.contains(from), "{from}");
         fs::write(&scenario, text.replacen(from, to, 1)).unwrap();
         let arm = include_str!("../../../arms/ssrms.toml");
+        let arm = arm.replacen("mass = 42.5", "mass = 42.6", 1);
         fs::write(folder.path().join("my_arm.toml"), arm).unwrap();
         let [scenario, output] = [&scenario, &output].map(|path| path.to_str().unwrap());
         let run = ulna(&["campaign", scenario, "--output", output, "--cases", "20"]);
@@ -329,6 +330,54 @@ fn another_campaigns_file_is_refused_and_left() {
     fs::write(output.join("campaign.csv"), "time,torque\n1,2\n").unwrap();
     refused(&["--cases", "10"], "is no file of a campaign");
     assert_eq!(csv(&output), "time,torque\n1,2\n");
+}
+
+/// It is the arm that counts and not its text or what computes it: code that was compiled in and code made of the table now have the same bits.
+#[test]
+fn an_own_table_of_the_same_arm_is_the_same_campaign() {
+    let folder = tempfile::tempdir().unwrap();
+    let [known, own] = ["known", "own"].map(|name| folder.path().join(name));
+    let scenario = folder.path().join("other.toml");
+    let text = include_str!("../../../scenarios/paper_like.toml");
+    let text = text.replacen("arm = \"ssrms\"", "arm = \"my_arm.toml\"", 1);
+    fs::write(&scenario, text).unwrap();
+    let arm = include_str!("../../../arms/ssrms.toml");
+    fs::write(folder.path().join("my_arm.toml"), format!("# Mine.\n{arm}")).unwrap();
+    let run = |output: &Path, cases: &str| {
+        let [scenario, output] = [scenario.as_path(), output].map(|path| path.to_str().unwrap());
+        ulna(&["campaign", scenario, "--output", output, "--cases", cases])
+    };
+    campaign(&known, &["--cases", CASES]).code(0);
+    run(&own, CASES).code(0);
+    for name in ["campaign.csv", "campaign.json"] {
+        let [known, own] = [&known, &own].map(|folder| fs::read(folder.join(name)).unwrap());
+        assert!(known == own, "{name}");
+    }
+    let err = stderr(&run(&known, "70").code(0));
+    assert!(err.contains("60 of 70 cases are in"), "{err}");
+
+    // Other machines may round otherwise, and the textbook does.
+    let record = known.join("campaign.json");
+    let text = fs::read_to_string(&record).unwrap();
+    let arithmetic: Value = serde_json::from_str(&text).unwrap();
+    let arithmetic = arithmetic["arithmetic"].as_str().unwrap();
+    for (from, to, message) in [
+        (
+            arithmetic,
+            "none",
+            "was computed with other arithmetic (none, not ",
+        ),
+        (
+            "\"generated\"",
+            "\"textbook\"",
+            "was computed by the textbook's formulas, not generated code",
+        ),
+    ] {
+        assert!(text.contains(from), "{from} in {text}");
+        fs::write(&record, text.replace(from, to)).unwrap();
+        let err = stderr(&campaign(&known, &["--cases", "80"]).code(1).stdout(""));
+        assert!(err.contains(message), "{err}");
+    }
 }
 
 #[test]

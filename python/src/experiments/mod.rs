@@ -13,7 +13,7 @@ pub(crate) use known::{tables, tables_text};
 pub(crate) use law::{Law, control_cycle, lock_impact};
 pub(crate) use operation::Operation;
 pub(crate) use plan::{Plan, plan_motion};
-pub(crate) use scenario::{Scenario, read_scenario};
+pub(crate) use scenario::{Scenario, read_scenario, restore_scenario};
 
 use pyo3::PyErr;
 

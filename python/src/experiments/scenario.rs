@@ -9,18 +9,20 @@ use rayon::prelude::*;
 use ulna_experiments::{Locking, Subject};
 use ulna_study::assess::GroundTruth;
 use ulna_study::experiment::ExperimentError as Impossible;
-use ulna_study::scenario::{Experiment, ScenarioArm};
+use ulna_study::scenario::{Experiment, ScenarioArm, ScenarioErrors};
 use ulna_table::Model;
 
 use super::{Operation, Plan, impossible, known, studies};
 use crate::arm::Arm;
-use crate::errors::{ExperimentError, ScenarioError, refused};
+use crate::errors::{ExperimentError, ScenarioError, TableError, refused};
 use crate::threads::{pool, resolved};
 
 /// The native half of `ulna.Scenario`.
 #[pyclass(frozen, module = "ulna._ulna")]
 pub(crate) struct Scenario {
-    scenario: Arc<ulna_study::Scenario>,
+    pub(crate) scenario: Arc<ulna_study::Scenario>,
+    text: String,
+    source: PathBuf,
     arm: Py<Arm>,
 }
 
@@ -29,22 +31,55 @@ pub(crate) struct Scenario {
 pub(crate) fn read_scenario(
     py: Python<'_>,
     path: PathBuf,
-    text: Option<&str>,
+    text: Option<String>,
 ) -> PyResult<Scenario> {
     let known = known::known();
-    let read = move || match text {
-        None => ulna_study::Scenario::load(&path, known),
-        Some(text) => {
-            let folder = path.parent().unwrap_or(Path::new(""));
-            ulna_study::Scenario::parse(text, &path.display().to_string(), folder, known)
-        }
+    let read = || {
+        let text = match text {
+            None => ulna_study::Scenario::read(&path)?,
+            Some(text) => text,
+        };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let called = path.display().to_string();
+        let scenario = ulna_study::Scenario::parse(&text, &called, folder, known)?;
+        Ok::<_, ScenarioErrors>((scenario, text))
     };
-    let scenario = py
+    let (scenario, text) = py
         .detach(read)
         .map_err(|errors| refused::<ScenarioError>(py, errors.texts()))?;
     let arm = arm(scenario.arm())?;
     Ok(Scenario {
         scenario: Arc::new(scenario),
+        text,
+        source: path,
+        arm: Py::new(py, arm)?,
+    })
+}
+
+/// A scenario that has been read before, in another process perhaps, on another machine, with the text of the `table` that it names.
+#[pyfunction]
+pub(crate) fn restore_scenario(
+    py: Python<'_>,
+    text: String,
+    source: PathBuf,
+    table: String,
+) -> PyResult<Scenario> {
+    let called = source.display().to_string();
+    let model =
+        Model::parse(&table, &called).map_err(|errors| refused::<TableError>(py, &[errors]))?;
+    let folder = source.parent().unwrap_or(Path::new(""));
+    let known = known::known();
+    let scenario = ulna_study::Scenario::parse_with_table(&text, &called, folder, known, &model)
+        .map_err(|errors| refused::<ScenarioError>(py, errors.texts()))?;
+    let path = match scenario.arm() {
+        ScenarioArm::Known(arm) => format!("{}.toml", arm.name),
+        ScenarioArm::Table { path, .. } => path.display().to_string(),
+    };
+    let arm = Arm::new(model, table, path, Vec::new());
+    Ok(Scenario {
+        scenario: Arc::new(scenario),
+        text,
+        source,
         arm: Py::new(py, arm)?,
     })
 }
@@ -67,7 +102,7 @@ fn arm(found: &ScenarioArm) -> PyResult<Arm> {
 }
 
 impl Scenario {
-    fn subject(&self, py: Python<'_>) -> PyResult<Arc<dyn Subject>> {
+    pub(crate) fn subject(&self, py: Python<'_>) -> PyResult<Arc<dyn Subject>> {
         self.arm.get().subject(py)
     }
 
@@ -93,6 +128,12 @@ impl Scenario {
     #[getter]
     fn name(&self) -> &str {
         self.scenario.name()
+    }
+
+    /// What [`restore_scenario`] takes: text, file, and the arm's table.
+    #[getter]
+    fn state<'a>(&'a self, py: Python<'a>) -> (&'a str, &'a Path, &'a str) {
+        (&self.text, &self.source, self.arm.bind(py).get().text())
     }
 
     #[getter]

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use ulna::{Joint, JointKind};
-use ulna_table::Model;
 use ulna_table::diagnostics::{Diagnostic, Diagnostics, Sink};
 use ulna_table::toml_reader::{Located, closest};
+use ulna_table::{Model, TableErrors};
 
 /// An arm that the program was compiled with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,12 +62,13 @@ impl ScenarioArm {
         }
     }
 
-    /// The arm called `name`: a path if it ends in `.toml`.
+    /// The arm called `name`: a path if it ends in `.toml`, whose table `load` reads.
     /// `Err` with the table's errors, or without where the fault is in the scenario and has been reported.
     pub(super) fn find(
         name: &Located<String>,
         folder: &Path,
         known: &[KnownArm],
+        load: &dyn Fn(&Path) -> Result<Model, TableErrors>,
         sink: &Sink,
     ) -> Result<Self, Option<Diagnostics>> {
         let written = name.value.as_str();
@@ -76,7 +77,7 @@ impl ScenarioArm {
             .is_some_and(|extension| extension == "toml")
         {
             let path = folder.join(written);
-            return match Model::load(&path) {
+            return match load(&path) {
                 Ok(model) => Ok(Self::Table {
                     path,
                     model: model.into(),

@@ -27,6 +27,7 @@ use std::path::Path;
 use read::ScenarioTable;
 use ulna_table::diagnostics::{Diagnostics, Sink};
 use ulna_table::toml_reader::read_file;
+use ulna_table::{Model, TableErrors};
 
 /// A validated scenario. Lists over joints have one entry for each joint of [`arm`](Self::arm).
 ///
@@ -59,10 +60,18 @@ impl Scenario {
     /// Everything that is wrong with the scenario and with the table that it names, at once.
     pub fn load(path: impl AsRef<Path>, known: &[KnownArm]) -> Result<Self, ScenarioErrors> {
         let path = path.as_ref();
-        let text = read_file(Path::new(""), path, Self::MAX_BYTES)
-            .map_err(|found| ScenarioErrors(vec![found]))?;
+        let text = Self::read(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         Self::parse(&text, &path.display().to_string(), folder, known)
+    }
+
+    /// The text of the scenario at `path`, for [`parse`](Self::parse).
+    ///
+    /// # Errors
+    /// When it cannot be read, or is too long for a scenario.
+    pub fn read(path: impl AsRef<Path>) -> Result<String, ScenarioErrors> {
+        read_file(Path::new(""), path.as_ref(), Self::MAX_BYTES)
+            .map_err(|found| ScenarioErrors(vec![found]))
     }
 
     /// Reads the scenario `text`, which errors call `source_name`; tables are looked for from `folder`.
@@ -75,11 +84,35 @@ impl Scenario {
         folder: &Path,
         known: &[KnownArm],
     ) -> Result<Self, ScenarioErrors> {
+        Self::with_tables(text, source_name, folder, known, &|path| Model::load(path))
+    }
+
+    /// [`parse`](Self::parse) where the table that the text names has been read before: for a scenario that has left its machine.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the scenario, at once.
+    pub fn parse_with_table(
+        text: &str,
+        source_name: &str,
+        folder: &Path,
+        known: &[KnownArm],
+        table: &Model,
+    ) -> Result<Self, ScenarioErrors> {
+        Self::with_tables(text, source_name, folder, known, &|_| Ok(table.clone()))
+    }
+
+    fn with_tables(
+        text: &str,
+        source_name: &str,
+        folder: &Path,
+        known: &[KnownArm],
+        load: &dyn Fn(&Path) -> Result<Model, TableErrors>,
+    ) -> Result<Self, ScenarioErrors> {
         let sink = Sink::new(source_name, text);
         let mut table_errors = None;
         let scenario = ScenarioTable::read(text, &sink).and_then(|table| {
             let arm = table.arm.as_ref().and_then(|name| {
-                ScenarioArm::find(name, folder, known, &sink)
+                ScenarioArm::find(name, folder, known, load, &sink)
                     .map_err(|errors| table_errors = errors)
                     .ok()
             });

@@ -4,31 +4,31 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ulna_files::refuse_special;
 use ulna_study::experiment::Shard;
 
-use crate::campaign::part::is_stem;
-use crate::campaign::record::{Record, ShardRecord};
-use crate::output::refuse_special;
+use crate::part::is_stem;
+use crate::record::{Record, ShardRecord};
 
 /// A shard by its manifest.
-pub(super) struct Found {
-    pub(super) manifest: PathBuf,
+pub(crate) struct Found {
+    pub(crate) manifest: PathBuf,
     /// Its rows, once they are complete.
-    pub(super) rows: PathBuf,
-    pub(super) shard: Shard,
-    pub(super) about: ShardRecord,
-    pub(super) record: Record,
+    pub(crate) rows: PathBuf,
+    pub(crate) shard: Shard,
+    pub(crate) about: ShardRecord,
+    pub(crate) record: Record,
 }
 
 impl Found {
     /// Whether all rows are there, by the manifest and by the file's name.
-    pub(super) fn is_complete(&self) -> bool {
+    pub(crate) fn is_complete(&self) -> bool {
         self.record.rows == self.about.rows() && self.rows.exists()
     }
 }
 
 /// The shards at `paths`; those that cannot be read are errors. One that is named twice is found once.
-pub(super) fn find(paths: &[PathBuf], errors: &mut Vec<String>) -> Vec<Found> {
+pub(crate) fn find(paths: &[PathBuf], errors: &mut Vec<String>) -> Vec<Found> {
     let mut seen = BTreeSet::new();
     let mut found = Vec::new();
     for path in paths {

@@ -4,44 +4,49 @@ use std::io::Read;
 
 use anyhow::Context;
 use serde::{Deserialize, Serialize};
+use ulna_files::rows;
 use ulna_study::experiment::{CampaignCase, CampaignOutcome};
 use ulna_study::{LawName, LawSet};
 
-use crate::rows;
-
 /// One case. Its columns are those of [`CaseCells`], then those of [`LawCells`] for each of the campaign's laws.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub(crate) struct Row {
-    pub(crate) case: CaseCells,
+pub struct Row {
+    /// What is so whatever law meets it.
+    pub case: CaseCells,
     /// In the order of the campaign's laws. Laws that were not chosen have no columns.
-    pub(crate) laws: Vec<LawCells>,
+    pub laws: Vec<LawCells>,
 }
 
 /// What is so whatever law meets the case. Norms over the healthy joints, N m (N); forces in N; `None` where there is no outcome.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
-pub(crate) struct CaseCells {
-    pub(crate) case: u64,
+pub struct CaseCells {
+    /// Its number, from 0.
+    pub case: u64,
     /// Counted from 1.
-    pub(crate) failed_joint: usize,
-    pub(crate) failure_time: f64,
-    pub(crate) before: Option<f64>,
-    pub(crate) locked_before: Option<f64>,
-    pub(crate) asked_force: Option<f64>,
+    pub failed_joint: usize,
+    /// When it locks, s.
+    pub failure_time: f64,
+    /// The impact without compensation.
+    pub before: Option<f64>,
+    /// The locked joint's own step without compensation.
+    pub locked_before: Option<f64>,
+    /// The norm of the tool force that is asked for.
+    pub asked_force: Option<f64>,
     /// "ok", or what went wrong: with the case, or with the laws that have no outcome.
-    pub(crate) status: String,
+    pub status: String,
 }
 
 /// What a law does in a case. In the file the first has the law's name, the others begin with it.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
-pub(crate) struct LawCells {
+pub struct LawCells {
     /// What it leaves over the healthy joints, N m (N).
-    pub(crate) impact: Option<f64>,
+    pub impact: Option<f64>,
     /// At the lock, N.
-    pub(crate) force_error: Option<f64>,
+    pub force_error: Option<f64>,
     /// At worst over the motion, N.
-    pub(crate) max_force_error: Option<f64>,
+    pub max_force_error: Option<f64>,
     /// How many healthy joints bear more than without compensation.
-    pub(crate) worse_joints: Option<usize>,
+    pub worse_joints: Option<usize>,
 }
 
 impl LawCells {
@@ -57,7 +62,7 @@ impl LawCells {
 
 impl Row {
     /// A case of a campaign of `laws` as a row.
-    pub(super) fn of(case: &CampaignCase, laws: LawSet) -> Self {
+    pub(crate) fn of(case: &CampaignCase, laws: LawSet) -> Self {
         let result = case.outcome.as_ref();
         let found = result.ok();
         let cells = |law: LawName| {
@@ -99,7 +104,7 @@ fn status(case: &CampaignCase) -> String {
 }
 
 /// The columns' names of a campaign of `laws`.
-pub(super) fn header(laws: LawSet) -> anyhow::Result<String> {
+pub(crate) fn header(laws: LawSet) -> anyhow::Result<String> {
     let case = rows::header::<CaseCells>()?;
     let cells = rows::header::<LawCells>()?;
     let cells: Vec<_> = cells.trim_end().split(',').collect();
@@ -115,7 +120,7 @@ pub(super) fn header(laws: LawSet) -> anyhow::Result<String> {
 }
 
 /// The rows that `lines` has, those behind a file's header, as they come: numbered without a gap from `first`.
-pub(super) fn read(lines: impl Read, first: u64) -> impl Iterator<Item = anyhow::Result<Row>> {
+pub(crate) fn read(lines: impl Read, first: u64) -> impl Iterator<Item = anyhow::Result<Row>> {
     let reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .from_reader(lines);

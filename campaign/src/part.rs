@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use ulna_study::experiment::Shard;
 
 /// What a shard's files are called, but for what they end in: in a list of names shards stand in order.
-pub(super) fn stem(shard: Shard) -> String {
+pub(crate) fn stem(shard: Shard) -> String {
     let width = shard.of().to_string().len().max(4);
     format!(
         "campaign-{:0width$}-of-{:0width$}",
@@ -17,7 +17,7 @@ pub(super) fn stem(shard: Shard) -> String {
 }
 
 /// Whether a shard's files may be called `name`, but for what they end in.
-pub(super) fn is_stem(name: &str) -> bool {
+pub(crate) fn is_stem(name: &str) -> bool {
     let numbers = name
         .strip_prefix("campaign-")
         .and_then(|numbers| numbers.split_once("-of-"));
@@ -26,7 +26,8 @@ pub(super) fn is_stem(name: &str) -> bool {
 }
 
 /// All cases of a campaign or one shard of them, in a folder.
-pub(super) struct Part {
+#[derive(Clone, Debug)]
+pub struct Part {
     folder: PathBuf,
     shard: Option<Shard>,
     cases: u64,
@@ -34,35 +35,37 @@ pub(super) struct Part {
 
 impl Part {
     /// Of a campaign of `cases`.
-    pub(super) fn new(folder: &Path, shard: Option<Shard>, cases: u64) -> Self {
+    pub fn new(folder: PathBuf, shard: Option<Shard>, cases: u64) -> Self {
         Self {
-            folder: folder.to_path_buf(),
+            folder,
             shard,
             cases,
         }
     }
 
-    pub(super) fn folder(&self) -> &Path {
+    /// Where its files are.
+    pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    pub(super) fn shard(&self) -> Option<Shard> {
+    /// Which of the shards it is; `None` for all cases.
+    pub fn shard(&self) -> Option<Shard> {
         self.shard
     }
 
     /// How many cases the whole campaign has.
-    pub(super) fn cases(&self) -> u64 {
+    pub fn cases(&self) -> u64 {
         self.cases
     }
 
     /// The numbers of its own.
-    pub(super) fn range(&self) -> Range<u64> {
+    pub fn range(&self) -> Range<u64> {
         self.shard
             .map_or(0..self.cases, |shard| shard.range(self.cases))
     }
 
     /// Its rows, its record or its lock, by what the name ends in.
-    pub(super) fn file(&self, end: &str) -> PathBuf {
+    pub fn file(&self, end: &str) -> PathBuf {
         let stem = self.shard.map_or_else(|| "campaign".to_owned(), stem);
         self.folder.join(format!("{stem}.{end}"))
     }

@@ -5,15 +5,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use ulna_study::experiment::Shard;
 
 use super::found::Found;
-use crate::campaign::record::Identity;
+use crate::Identity;
 
 /// What is to be put together.
 #[derive(Default)]
-pub(super) struct Plan {
+pub(crate) struct Plan {
     /// Those of one campaign that are complete, in order; every number once, if nothing is wrong.
-    pub(super) shards: Vec<Found>,
+    pub(crate) shards: Vec<Found>,
     /// Others that are complete, the same again or of another campaign: their rows are looked at as well.
-    pub(super) others: Vec<Found>,
+    pub(crate) others: Vec<Found>,
     notes: Vec<String>,
 }
 
@@ -21,7 +21,7 @@ impl Plan {
     /// Sorts what was `found`, and says all that is wrong with it.
     ///
     /// Which campaign is meant, the shards themselves tell: that of most of them, or of several such the first.
-    pub(super) fn new(found: Vec<Found>, errors: &mut Vec<String>) -> Self {
+    pub(crate) fn new(found: Vec<Found>, errors: &mut Vec<String>) -> Self {
         let mut campaigns: Vec<Vec<Found>> = Vec::new();
         for found in found {
             let is_its = |campaign: &&mut Vec<Found>| {
@@ -97,7 +97,7 @@ impl Plan {
     }
 
     /// What is well to know, though nothing is wrong.
-    pub(super) fn notes(&self) -> &[String] {
+    pub(crate) fn notes(&self) -> &[String] {
         &self.notes
     }
 }

@@ -6,19 +6,19 @@ use std::path::Path;
 
 use anyhow::{Context, bail};
 
-use super::{folder_of, target};
+use crate::target::{folder_of, target};
 
 /// Held for as long as this lives; the system gives it back however the program ends.
 ///
 /// The file that it is held on stays: were it removed, one run could hold the removed file and another a new one of the
 /// same name. Without a run that holds it, it is in nobody's way.
-pub(crate) struct Lock {
+pub struct Lock {
     _file: File,
 }
 
 impl Lock {
     /// Takes the file at `path`, whose folder must be there, or says who makes `what` there already.
-    pub(crate) fn take(path: &Path, what: &str) -> anyhow::Result<Self> {
+    pub fn take(path: &Path, what: &str) -> anyhow::Result<Self> {
         let mut file = File::options()
             .read(true)
             .write(true)

@@ -3,14 +3,12 @@
 use serde::Serialize;
 
 /// The whole file: the columns' names, and a line for each row.
-pub(crate) fn file<T: Default + Serialize>(
-    rows: impl IntoIterator<Item = T>,
-) -> anyhow::Result<String> {
+pub fn file<T: Default + Serialize>(rows: impl IntoIterator<Item = T>) -> anyhow::Result<String> {
     Ok(header::<T>()? + &lines(rows)?)
 }
 
 /// The columns' names.
-pub(crate) fn header<T: Default + Serialize>() -> anyhow::Result<String> {
+pub fn header<T: Default + Serialize>() -> anyhow::Result<String> {
     // The names are known while a row is written, and to a file without rows they matter too.
     let mut csv = csv::Writer::from_writer(Vec::new());
     csv.serialize(T::default())?;
@@ -20,7 +18,7 @@ pub(crate) fn header<T: Default + Serialize>() -> anyhow::Result<String> {
 }
 
 /// A line for each row.
-pub(crate) fn lines<T: Serialize>(rows: impl IntoIterator<Item = T>) -> anyhow::Result<String> {
+pub fn lines<T: Serialize>(rows: impl IntoIterator<Item = T>) -> anyhow::Result<String> {
     let mut csv = csv::WriterBuilder::new()
         .has_headers(false)
         .from_writer(Vec::new());

@@ -6,17 +6,16 @@ use std::path::Path;
 
 use anyhow::Context;
 use sha2::{Digest, Sha256};
-
-use crate::output::refuse_special;
+use ulna_files::refuse_special;
 
 /// What is read of it has been hashed.
-pub(super) struct Hashed {
+pub(crate) struct Hashed {
     file: BufReader<File>,
     hash: Sha256,
 }
 
 impl Hashed {
-    pub(super) fn open(path: &Path) -> anyhow::Result<Self> {
+    pub(crate) fn open(path: &Path) -> anyhow::Result<Self> {
         refuse_special(path)?;
         let file = File::open(path).with_context(|| format!("cannot read {}", path.display()))?;
         Ok(Self {
@@ -26,7 +25,7 @@ impl Hashed {
     }
 
     /// Of all that has been read.
-    pub(super) fn hash(self) -> Sha256 {
+    pub(crate) fn hash(self) -> Sha256 {
         self.hash
     }
 }

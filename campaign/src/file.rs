@@ -8,17 +8,15 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow, bail};
-use ulna_study::Scenario;
+use ulna_files::{Staged, rows, target, write_whole};
 
-use super::hashed::Hashed;
-use super::part::Part;
-use super::record::{Record, Recorder, remedy};
-use super::row::{self, Row};
-use crate::output::{Staged, target, write_whole};
-use crate::rows;
+use crate::hashed::Hashed;
+use crate::record::{Record, Recorder, remedy};
+use crate::row::{self, Row};
+use crate::{Campaign, Part};
 
 /// The file under way, or complete.
-pub(super) struct CampaignFile {
+pub(crate) struct CampaignFile {
     whole: PathBuf,
     partial: PathBuf,
     recorder: Recorder,
@@ -35,28 +33,13 @@ pub(super) struct CampaignFile {
 
 impl CampaignFile {
     /// Takes up what there is of `part`: rows of another campaign, or of none, are refused.
-    /// Some of them are made again with `remake`, because a program may change without its version.
+    /// Some of them are made again, because a program may change without its version.
     /// Only where rows are to be kept are they in memory.
-    pub(super) fn open(
-        part: &Part,
-        scenario: &Scenario,
-        keep: bool,
-        remake: impl Fn(u64) -> Row,
-    ) -> anyhow::Result<Self> {
+    pub(crate) fn open(part: &Part, campaign: &Campaign<'_>, keep: bool) -> anyhow::Result<Self> {
         // Beside what it becomes, wherever a link leads.
         let whole = target(&part.file("csv"))?;
         let partial = target(&whole.with_extension("csv.partial"))?;
-        let range = part.range();
-        let mut file = Self {
-            whole,
-            partial,
-            recorder: Recorder::new(part, scenario),
-            header: row::header(scenario.campaign().laws())?,
-            first: range.start,
-            cases: range.end - range.start,
-            kept: keep.then(Vec::new),
-            complete: false,
-        };
+        let mut file = Self::nothing_yet(part, campaign, [whole, partial], keep)?;
         // A whole file that is being continued is whole still, but the other has more rows.
         let paths = [file.partial.clone(), file.whole.clone()];
         let Some(path) = paths.iter().find(|path| path.exists()) else {
@@ -66,7 +49,7 @@ impl CampaignFile {
             write_whole(&file.partial, file.header.as_bytes())?;
             return Ok(file);
         };
-        let recorded = file.take_up(path, remake)?;
+        let recorded = file.take_up(path, campaign)?;
         file.complete = *path == file.whole && file.rows() >= file.cases;
         if *path == file.partial {
             // Without what was added and not recorded.
@@ -82,8 +65,27 @@ impl CampaignFile {
         Ok(file)
     }
 
+    fn nothing_yet(
+        part: &Part,
+        campaign: &Campaign<'_>,
+        [whole, partial]: [PathBuf; 2],
+        keep: bool,
+    ) -> anyhow::Result<Self> {
+        let range = part.range();
+        Ok(Self {
+            whole,
+            partial,
+            recorder: Recorder::new(part, campaign),
+            header: row::header(campaign.laws())?,
+            first: range.start,
+            cases: range.end - range.start,
+            kept: keep.then(Vec::new),
+            complete: false,
+        })
+    }
+
     /// Reads the rows at `path`, and returns how many bytes of the file are good.
-    fn take_up(&mut self, path: &Path, remake: impl Fn(u64) -> Row) -> anyhow::Result<u64> {
+    fn take_up(&mut self, path: &Path, campaign: &Campaign<'_>) -> anyhow::Result<u64> {
         let cannot_read = || format!("cannot read {}", path.display());
         let mut file = Hashed::open(path)?;
         let mut header = Vec::new();
@@ -132,7 +134,7 @@ impl CampaignFile {
         }
         for row in &looked_at_rows {
             let index = row.case.case;
-            if rows::lines([&remake(index)])? != rows::lines([row])? {
+            if rows::lines([&campaign.row(index)])? != rows::lines([row])? {
                 bail!(
                     "case {index} of {} comes out otherwise by this program; {}",
                     path.display(),
@@ -145,17 +147,17 @@ impl CampaignFile {
     }
 
     /// How many of the cases that are asked for are in it.
-    pub(super) fn rows(&self) -> u64 {
+    pub(crate) fn rows(&self) -> u64 {
         self.cases.min(self.recorder.rows())
     }
 
     /// Where it is, or will be.
-    pub(super) fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.whole
     }
 
     /// Adds the next cases.
-    pub(super) fn append(&mut self, rows: Vec<Row>) -> anyhow::Result<()> {
+    pub(crate) fn append(&mut self, rows: Vec<Row>) -> anyhow::Result<()> {
         let text = rows::lines(&rows)?;
         let opened = OpenOptions::new().append(true).open(&self.partial);
         let written = opened.and_then(|mut file| {
@@ -173,11 +175,27 @@ impl CampaignFile {
     }
 
     /// Gives the file its name, and returns the rows that were asked for, if they were kept.
-    pub(super) fn finish(self) -> anyhow::Result<Vec<Row>> {
+    pub(crate) fn finish(self) -> anyhow::Result<Vec<Row>> {
         if !self.complete {
             fs::rename(&self.partial, &self.whole)
                 .with_context(|| format!("cannot write {}", self.whole.display()))?;
         }
         Ok(self.kept.unwrap_or_default())
     }
+}
+
+/// Whether all rows of `part` are there under their name, and good. Makes and changes nothing; what is under way is none of it.
+///
+/// # Errors
+/// When the rows that are there are those of another campaign, or have been changed: nobody may write over them.
+pub fn is_there(part: &Part, campaign: &Campaign<'_>) -> anyhow::Result<bool> {
+    let [whole, partial] = ["csv", "csv.partial"].map(|end| part.file(end));
+    // The record is that of the file under way, if there is one.
+    if !whole.exists() || partial.exists() {
+        return Ok(false);
+    }
+    let paths = [whole.clone(), partial];
+    let mut file = CampaignFile::nothing_yet(part, campaign, paths, false)?;
+    file.take_up(&whole, campaign)?;
+    Ok(file.rows() >= file.cases)
 }

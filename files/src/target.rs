@@ -6,14 +6,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 
-use super::{cannot_write, folder_of};
-
 /// As many links follow each other in a path that Linux still opens.
 const MOST_LINKS: usize = 40;
 
 /// The file that writing to `path` is about: symbolic links stay what they are, and the file that they lead to is
 /// replaced, or made. What is no regular file is refused: a device that is replaced by a file is a broken device.
-pub(crate) fn target(path: &Path) -> anyhow::Result<PathBuf> {
+pub fn target(path: &Path) -> anyhow::Result<PathBuf> {
     match fs::metadata(path) {
         Ok(found) if !found.is_file() => bail!(
             "{}: it is {}, no regular file; name another file",
@@ -49,7 +47,7 @@ pub(crate) fn target(path: &Path) -> anyhow::Result<PathBuf> {
 }
 
 /// Refuses to read what is no regular file: a pipe would be waited for, and a device might never end.
-pub(crate) fn refuse_special(path: &Path) -> anyhow::Result<()> {
+pub fn refuse_special(path: &Path) -> anyhow::Result<()> {
     match fs::metadata(path) {
         Ok(found) if !found.is_file() => bail!(
             "cannot read {}: it is {}, no regular file",
@@ -75,4 +73,15 @@ fn kind(file_type: FileType) -> &'static str {
         }
     }
     "a device"
+}
+
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+pub(crate) fn cannot_write(path: &Path) -> String {
+    format!("cannot write {}", path.display())
 }

@@ -6,24 +6,25 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use sha2::{Digest, Sha256};
+use ulna_files::{Growing, Lock, Staged};
 
 use super::found::Found;
 use super::plan::Plan;
-use crate::campaign::hashed::Hashed;
-use crate::campaign::record::{Record, hex};
-use crate::output::{Growing, Lock, Staged};
-use crate::progress::Progress;
+use crate::hashed::Hashed;
+use crate::record::{Record, hex};
 
 /// Looks at all rows, and writes those of the plan to `output` and their record beside it, if nothing is or was wrong.
 /// Returns what was written.
-pub(super) fn merge(
+pub(crate) fn merge(
     plan: &Plan,
     output: &Path,
+    watch: &mut dyn FnMut(u64, u64) -> anyhow::Result<()>,
     errors: &mut Vec<String>,
 ) -> anyhow::Result<Option<[PathBuf; 2]>> {
-    let progress = Progress::new()?;
-    let files = plan.shards.len() + plan.others.len();
-    progress.counts(files as u64, "shards merged")?;
+    let files = (plan.shards.len() + plan.others.len()) as u64;
+    let mut numbers = 0..=files;
+    let mut one_done = || watch(numbers.next().unwrap_or(files), files);
+    one_done()?;
     let mut merged = match errors.is_empty() {
         true => Some(Merged::new(output)?),
         false => None,
@@ -35,13 +36,13 @@ pub(super) fn merge(
             errors.push(format!("{error:#}"));
             merged = None;
         }
-        progress.one_done();
+        one_done()?;
     }
     for found in &plan.others {
         // Its first line is its own affair: of the same shard it is the same, by the sum of all.
         let read = read(found, &mut None, &mut |_| Ok(()));
         errors.extend(read.err().map(|error| format!("{error:#}")));
-        progress.one_done();
+        one_done()?;
     }
     match (merged, plan.shards.first()) {
         (Some(merged), Some(first)) if errors.is_empty() => merged.finish(output, first).map(Some),
@@ -140,7 +141,7 @@ fn read(
 }
 
 /// Refuses an `output` that something else stands in the way of.
-pub(super) fn check_output(output: &Path, plan: &Plan, errors: &mut Vec<String>) {
+pub(crate) fn check_output(output: &Path, plan: &Plan, errors: &mut Vec<String>) {
     let record = output.with_extension("json");
     if record == output {
         errors.push(format!(

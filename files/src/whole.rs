@@ -1,9 +1,5 @@
 //! Files, written whole or not at all.
 
-mod lock;
-mod stdout;
-mod target;
-
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -11,37 +7,36 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use tempfile::NamedTempFile;
 
-pub(crate) use lock::Lock;
-pub(crate) use stdout::Stdout;
-pub(crate) use target::{refuse_special, target};
+use crate::target::{cannot_write, folder_of, target};
 
 /// Writes `bytes` under another name first, so that the file at `path` is never half of them.
 /// Symbolic links are written through.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+pub fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     Staged::write(path, bytes)?.persist()
 }
 
 /// Writes `bytes` to a new file: what stands at `path` already stays as it is, and is an error.
-pub(crate) fn write_new(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+pub fn write_new(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     Staged::write(path, bytes)?.persist_new()
 }
 
 /// A file that is written, but has not got its name yet. Dropped, it leaves nothing.
-pub(crate) struct Staged {
+pub struct Staged {
     file: NamedTempFile,
     path: PathBuf,
     target: PathBuf,
 }
 
 impl Staged {
-    pub(crate) fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
+    /// What `path` is to have: `bytes`.
+    pub fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<Self> {
         let mut growing = Growing::new(path)?;
         growing.add(bytes)?;
         growing.finish()
     }
 
     /// A copy of the file at `from`, which may be larger than the memory.
-    pub(crate) fn copy(path: &Path, from: &Path) -> anyhow::Result<Self> {
+    pub fn copy(path: &Path, from: &Path) -> anyhow::Result<Self> {
         let mut growing = Growing::new(path)?;
         let copied =
             fs::File::open(from).and_then(|mut from| io::copy(&mut from, &mut growing.out));
@@ -49,7 +44,8 @@ impl Staged {
         growing.finish()
     }
 
-    pub(crate) fn persist(self) -> anyhow::Result<()> {
+    /// Gives the file its name.
+    pub fn persist(self) -> anyhow::Result<()> {
         let Self { file, path, target } = self;
         file.persist(target)
             .map(drop)
@@ -68,7 +64,7 @@ impl Staged {
 }
 
 /// A file that is written piece by piece, and has not got its name yet. Dropped, it leaves nothing.
-pub(crate) struct Growing {
+pub struct Growing {
     // The file itself: errors of `NamedTempFile` name it, which nobody has asked for.
     out: BufWriter<fs::File>,
     file: NamedTempFile,
@@ -78,7 +74,7 @@ pub(crate) struct Growing {
 
 impl Growing {
     /// Nothing yet of what `path` is to have.
-    pub(crate) fn new(path: &Path) -> anyhow::Result<Self> {
+    pub fn new(path: &Path) -> anyhow::Result<Self> {
         let target = target(path)?;
         let opened = temporary(&target).and_then(|file| {
             let out = BufWriter::with_capacity(1 << 20, file.as_file().try_clone()?);
@@ -94,13 +90,13 @@ impl Growing {
     }
 
     /// The next piece.
-    pub(crate) fn add(&mut self, bytes: &[u8]) -> anyhow::Result<()> {
+    pub fn add(&mut self, bytes: &[u8]) -> anyhow::Result<()> {
         let added = self.out.write_all(bytes);
         added.with_context(|| cannot_write(&self.path))
     }
 
     /// There is no more to come.
-    pub(crate) fn finish(mut self) -> anyhow::Result<Staged> {
+    pub fn finish(mut self) -> anyhow::Result<Staged> {
         // A file system may find out only now that it is full.
         let written = self
             .out
@@ -137,19 +133,8 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
-}
-
-fn cannot_write(path: &Path) -> String {
-    format!("cannot write {}", path.display())
-}
-
 /// Refuses a `folder` that no file can be written to, before the work that leads to the files. Makes nothing.
-pub(crate) fn check_folder(folder: &Path) -> anyhow::Result<()> {
+pub fn check_folder(folder: &Path) -> anyhow::Result<()> {
     let cannot_make = || format!("cannot make the folder {}", folder.display());
     for there in folder.ancestors() {
         // The last ancestor of a relative path is empty: the folder that the program runs in.
@@ -185,18 +170,18 @@ pub(crate) fn check_folder(folder: &Path) -> anyhow::Result<()> {
 
 /// The files of a folder before they are written: what fails on the way leaves nothing behind.
 #[derive(Default)]
-pub(crate) struct Files(Vec<(PathBuf, Vec<u8>)>);
+pub struct Files(Vec<(PathBuf, Vec<u8>)>);
 
 impl Files {
     /// Adds a file; `name` may have folders in it.
-    pub(crate) fn add(&mut self, name: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) {
+    pub fn add(&mut self, name: impl Into<PathBuf>, bytes: impl Into<Vec<u8>>) {
         self.0.push((name.into(), bytes.into()));
     }
 
     /// Writes all of them into `folder`, which is made if need be, and returns their paths.
     ///
     /// None gets its name before all are written: where there is no room for one, those that stand there stay as they are.
-    pub(crate) fn write_to(self, folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    pub fn write_to(self, folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
         // Dropped last: after the files in them.
         let mut made = MadeFolders(Vec::new());
         let mut paths = Vec::new();
@@ -211,7 +196,7 @@ impl Files {
     /// Writes all of them as new files into `folder`, which is made if need be, and returns their paths.
     ///
     /// Whatever fails, a file that is there already among it: none of them is left, and none of the folders made for them.
-    pub(crate) fn write_new_to(self, folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    pub fn write_new_to(self, folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
         let mut made = MadeFolders(Vec::new());
         let mut written = WrittenFiles(Vec::new());
         for file in self.stage(folder, &mut made)? {

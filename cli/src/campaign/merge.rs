@@ -1,16 +1,13 @@
 //! `ulna merge`: the shards of a campaign put together.
 
-mod found;
-mod plan;
-mod write;
-
 use std::path::PathBuf;
 
 use clap::Args;
+use ulna_campaign::merge;
+use ulna_files::target;
 
-use crate::output::target;
+use crate::progress::Progress;
 use crate::{Verdict, console};
-use plan::Plan;
 
 /// Put the shards of a campaign together: the file of the campaign in one go, byte for byte
 #[derive(Args)]
@@ -34,18 +31,28 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Verdict> {
     // Before the work that leads to it.
     target(&arguments.output)?;
-    let mut errors = Vec::new();
-    let found = found::find(&arguments.shards, &mut errors);
-    let plan = Plan::new(found, &mut errors);
-    write::check_output(&arguments.output, &plan, &mut errors);
-    let written = write::merge(&plan, &arguments.output, &mut errors)?;
-    if written.is_none() {
-        errors.iter().for_each(|error| console::error(error));
-        return Ok(Verdict::Fail);
+    let progress = Progress::new()?;
+    let mut said = false;
+    let merged = merge(&arguments.shards, &arguments.output, &mut |_, files| {
+        if said {
+            progress.one_done();
+            return Ok(());
+        }
+        said = true;
+        progress.counts(files, "shards merged")
+    })?;
+    drop(progress);
+    match merged {
+        Err(errors) => {
+            errors.iter().for_each(|error| console::error(error));
+            Ok(Verdict::Fail)
+        }
+        Ok(merged) => {
+            merged.notes.iter().for_each(|note| console::note(note));
+            for path in [merged.rows, merged.record] {
+                console::note(&format!("wrote {}", path.display()));
+            }
+            Ok(Verdict::Pass)
+        }
     }
-    plan.notes().iter().for_each(|note| console::note(note));
-    for path in written.into_iter().flatten() {
-        console::note(&format!("wrote {}", path.display()));
-    }
-    Ok(Verdict::Pass)
 }
