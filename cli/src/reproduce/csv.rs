@@ -1,10 +1,10 @@
 //! The CSV files of `ulna reproduce`.
 
 use serde::Serialize;
-use ulna_study::experiment::{Case, SimulatedLock, Study};
+use ulna_study::experiment::{Case, SearchMethod, SimulatedLock, Study};
 
 use super::force::Asked;
-use super::words::{name, solve_status, status};
+use super::words::{solve_status, status};
 use crate::rows::file;
 
 /// A case and a joint.
@@ -34,7 +34,7 @@ pub(super) fn impacts<'s>(
         suppression.map(move |(joint, suppression_percent)| Impact {
             section: &case.section,
             failure_time: case.failure_time,
-            method: name(case.method),
+            method: case.method.name(),
             joint: joint + 1,
             locks: case.failed_joints.contains(&joint),
             impact_before: case.impact_before[joint],
@@ -78,7 +78,7 @@ pub(super) fn searches<'s>(
         Search {
             section: &case.section,
             failure_time: case.failure_time,
-            method: name(case.method),
+            method: case.method.name(),
             search: search.map(|search| solve_status(search.status)),
             gap: search.and_then(|search| search.gap),
             iterations: search.map(|search| search.iterations),
@@ -152,7 +152,7 @@ pub(super) fn simulations(simulations: &[SimulatedLock]) -> anyhow::Result<Strin
             tool_acceleration: run.tool_acceleration,
             reflected_inertia: simulated.reflected_inertia[joint],
             braking_step: simulated.braking_step[joint],
-            method: run.method.map_or("none", name),
+            method: run.method.map_or("none", SearchMethod::name),
             joint: joint + 1,
             locks: simulated.failed_joints.contains(&joint),
             predicted_step: run.predicted_step[joint],

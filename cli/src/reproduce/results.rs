@@ -5,7 +5,7 @@ use ulna_study::Scenario;
 use ulna_study::experiment::Case;
 
 use super::force::Asked;
-use super::words::{name, status};
+use super::words::status;
 use super::{Findings, csv, limited, plan_steps, structure, worse};
 use crate::output::Files;
 
@@ -111,7 +111,7 @@ pub(super) fn add(
             method,
             ..
         } = case;
-        let name = format!("series/{section}_{failure_time}s_{}.csv", name(*method));
+        let name = format!("series/{section}_{failure_time}s_{}.csv", method.name());
         files.add(name, csv::series(case)?);
     }
     Ok(())
@@ -123,7 +123,7 @@ fn result(case: &Case, asked: Asked, margin: Option<f64>) -> ResultCase<'_> {
         worse_joints: worse.iter().map(|worse| worse.joint + 1).collect(),
         certificate_margin: margin.filter(|_| worse::keeps_force(case.method)),
         section: &case.section,
-        law: name(case.method),
+        law: case.method.name(),
         failed_joint: FailedJoint::of(case),
         failure_time: case.failure_time,
         rated_torque: case.rated_torque.as_deref(),

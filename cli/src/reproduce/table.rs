@@ -9,7 +9,7 @@ use ulna_study::scenario::{Reference, Scenario};
 use super::coefficients::coefficients;
 use super::force::Asked;
 use super::references::{self, reference_at};
-use super::words::{impact_unit, name, seconds, significant, solve_status, what_locks};
+use super::words::{impact_unit, seconds, significant, solve_status, what_locks};
 use super::{Findings, bounds, limited, lock_step, plan_steps, structure, verdict, worse};
 use crate::columns::plain;
 
@@ -216,7 +216,7 @@ fn searches(studies: &[&Study]) -> String {
         };
         table.add_row([
             format!("{} s", case.failure_time),
-            name(case.method).to_owned(),
+            case.method.name().to_owned(),
             ended,
             steps,
             time,

@@ -8,7 +8,7 @@ use ulna_study::Scenario;
 
 use super::Findings;
 use super::drawings::footer;
-use super::words::{name, significant};
+use super::words::significant;
 use crate::columns::plain;
 use crate::figures::{self, FeltSteps};
 use crate::output::Files;
@@ -29,7 +29,7 @@ pub(super) const METHODS: [(SearchMethod, &str); 3] = [
 fn title(method: SearchMethod) -> &'static str {
     let mut titles = METHODS.into_iter();
     let found = titles.find(|(known, _)| *known == method);
-    found.map_or_else(|| name(method), |(_, title)| title)
+    found.map_or_else(|| method.name(), |(_, title)| title)
 }
 
 /// A law as a sentence has it.
@@ -141,7 +141,7 @@ fn points(sweeps: &[Sweep]) -> anyhow::Result<String> {
             lead: sweep.lead,
             gain: point.gain,
             reflected_inertia: inertia(&point.rotors),
-            method: point.method.map_or("none", name),
+            method: point.method.map_or("none", SearchMethod::name),
             predicted_step: point.felt.map(|felt| felt.predicted_step),
             step: point.felt.map(|felt| felt.step),
             peak_torque: point.felt.map(|felt| felt.peak),
@@ -173,7 +173,7 @@ fn verdicts(sweeps: &[Sweep]) -> anyhow::Result<String> {
                 own: verdict.own,
                 failure_time: lock.failure_time,
                 step_without: lock.without,
-                best: best.map_or("", |(method, _)| name(method)),
+                best: best.map_or("", |(method, _)| method.name()),
                 best_relative: best.map(|(_, ratio)| ratio),
                 lowered: lock.helps().is_some(),
             }

@@ -2,7 +2,7 @@
 
 use ulna::{Joint, JointKind, Status};
 use ulna_study::Scenario;
-use ulna_study::experiment::{Case, SearchMethod};
+use ulna_study::experiment::Case;
 use ulna_study::search::SolveStatus;
 
 pub(super) use crate::numbers::significant;
@@ -40,17 +40,6 @@ pub(super) fn impact_unit(joints: &[Joint]) -> &'static str {
         "N m (N at sliding joints)"
     } else {
         "N m"
-    }
-}
-
-/// What a method is called in files.
-pub(super) fn name(method: SearchMethod) -> &'static str {
-    match method {
-        SearchMethod::StepwisePerJoint => "eq16_steps",
-        SearchMethod::PerJoint => "eq16",
-        SearchMethod::StepwiseProjected => "eq20_steps",
-        SearchMethod::Projected => "eq20",
-        SearchMethod::Optimal => "optimal",
     }
 }
 

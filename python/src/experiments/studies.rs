@@ -13,7 +13,7 @@ use super::words;
 pub(super) fn study<'py>(py: Python<'py>, study: &Study) -> PyResult<Bound<'py, PyDict>> {
     let cases = PyDict::new(py);
     for found in &study.cases {
-        cases.set_item(words::method(found.method), case(py, found)?)?;
+        cases.set_item(found.method.name(), case(py, found)?)?;
     }
     let points = study.tradeoff.as_ref().map_or(&[][..], |it| &it.frontier);
     let column = |number: fn(&(f64, f64)) -> f64| points.iter().map(number).collect::<Vec<f64>>();
@@ -61,11 +61,14 @@ pub(super) fn simulated_lock<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let runs = PyDict::new(py);
     for found in &lock.runs {
-        runs.set_item(found.method.map_or("none", words::method), run(py, found)?)?;
+        runs.set_item(
+            found.method.map_or("none", |method| method.name()),
+            run(py, found)?,
+        )?;
     }
     let unfinished = PyDict::new(py);
     for (method, ending) in &lock.unfinished {
-        unfinished.set_item(words::method(*method), words::ending(*ending))?;
+        unfinished.set_item(method.name(), words::ending(*ending))?;
     }
     let column = |number: fn(&ulna_study::experiment::BrakeImpulse) -> f64| {
         lock.convergence.iter().map(number).collect::<Vec<f64>>()

@@ -4,7 +4,6 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use ulna::control::compensation::Projector;
 use ulna::{ProfileShape, Status};
-use ulna_study::experiment::SearchMethod;
 use ulna_study::search::SolveStatus;
 use ulna_study::simulation::{BrakeProfile, Ending};
 
@@ -68,17 +67,6 @@ pub(super) fn way(word: &str) -> PyResult<Way> {
         ("eq20_steps", Way::StepwiseProjected),
     ];
     chosen("method", word, &choices)
-}
-
-/// As files of the program call it.
-pub(super) fn method(method: SearchMethod) -> &'static str {
-    match method {
-        SearchMethod::StepwisePerJoint => "eq16_steps",
-        SearchMethod::PerJoint => "eq16",
-        SearchMethod::StepwiseProjected => "eq20_steps",
-        SearchMethod::Projected => "eq20",
-        SearchMethod::Optimal => "optimal",
-    }
 }
 
 /// As files of the program call it.

@@ -29,6 +29,17 @@ impl SearchMethod {
         Self::Optimal,
     ];
 
+    /// What it is called in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::StepwisePerJoint => "eq16_steps",
+            Self::PerJoint => "eq16",
+            Self::StepwiseProjected => "eq20_steps",
+            Self::Projected => "eq20",
+            Self::Optimal => "optimal",
+        }
+    }
+
     /// The law whose parameters it finds.
     pub fn law(self) -> Law {
         match self {

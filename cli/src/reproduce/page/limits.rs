@@ -6,7 +6,7 @@ use ulna::JointKind;
 use ulna_study::Scenario;
 use ulna_study::experiment::{Case, SearchMethod, Study};
 
-use crate::reproduce::words::{joints_named, name, significant};
+use crate::reproduce::words::{joints_named, significant};
 
 /// By so much, relative, a torque may exceed a rated one before it counts: the numbers are rounded.
 const ROUNDING: f64 = 1e-12;
@@ -28,7 +28,7 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, studies: &[&Study]) 
             .cases
             .iter()
             .filter(exceeding)
-            .map(|case| name(case.method))
+            .map(|case| case.method.name())
             .collect();
         let exceeded = if exceeded.is_empty() {
             "no law exceeds one".to_owned()

@@ -7,7 +7,7 @@ use ulna_study::experiment::{SearchMethod, SimulatedLock, SimulatedRun};
 
 use crate::reproduce::Findings;
 use crate::reproduce::drawings::{CONVERGENCE, SIMULATED};
-use crate::reproduce::words::{joints_named, name, seconds, significant};
+use crate::reproduce::words::{joints_named, seconds, significant};
 use crate::setting::Setting;
 
 /// The norms of a run's step over the healthy joints, one for each failure time.
@@ -84,7 +84,7 @@ pub(super) fn write(page: &mut String, scenario: &Scenario, findings: &Findings)
                 page,
                 "| {} | `{}` | {} | {} | {} | {} |",
                 simulated.failure_time,
-                run.method.map_or("none", name),
+                run.method.map_or("none", SearchMethod::name),
                 significant(norm(&run.predicted_step)),
                 significant(norm(&run.torque_step)),
                 significant(largest(false)),

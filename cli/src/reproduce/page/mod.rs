@@ -20,7 +20,7 @@ use ulna_study::Scenario;
 use ulna_study::experiment::Study;
 use ulna_study::scenario::Experiment;
 
-use super::words::{name, significant, status, what_locks};
+use super::words::{significant, status, what_locks};
 use super::{Findings, lock_step};
 
 /// The page.
@@ -123,7 +123,7 @@ fn summary(
                 page,
                 "| {} | `{}` | {} | {} | {} | {} | {} | {} | {} |",
                 study.failure_time,
-                name(case.method),
+                case.method.name(),
                 significant(before),
                 significant(after),
                 significant(case.force_error),

@@ -7,7 +7,7 @@ use ulna_study::experiment::{Case, SearchMethod, Study};
 use ulna_study::search::SolveStatus;
 
 use super::findings::{notable, times};
-use crate::reproduce::words::{name, short, significant};
+use crate::reproduce::words::{short, significant};
 
 /// Searches that did not end as they should: without a result, at the step limit, or with weaker tolerances.
 pub(super) fn unfinished(page: &mut String, studies: &[&Study]) -> fmt::Result {
@@ -15,7 +15,7 @@ pub(super) fn unfinished(page: &mut String, studies: &[&Study]) -> fmt::Result {
         let cases = studies.iter().flat_map(|study| &study.cases);
         cases.filter_map(wanted).collect()
     };
-    let place = |case: &Case| format!("`{}` at {} s", name(case.method), case.failure_time);
+    let place = |case: &Case| format!("`{}` at {} s", case.method.name(), case.failure_time);
     let status = |case: &Case| case.search.as_ref().ok().map(|search| search.status);
     let stopped = at(&|case| {
         let search = case.search.as_ref().ok()?;

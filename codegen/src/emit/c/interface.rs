@@ -16,8 +16,8 @@ pub(super) fn further(target: &Target<'_>, compiled: &Compiled, about: &[String]
     }
 }
 
-/// A header that may be included twice, and from C++: `above` are comments, `guard` is in lower case.
-pub(super) fn guarded(guard: &str, above: &str, prototypes: &str) -> String {
+/// A header that may be included twice, and from C++: `above` are comments, `guard` is in lower case, `content` what it declares.
+pub(super) fn guarded(guard: &str, above: &str, content: &str) -> String {
     let guard = guard.to_uppercase();
     format!(
         "{above}#ifndef {guard}
@@ -26,7 +26,7 @@ pub(super) fn guarded(guard: &str, above: &str, prototypes: &str) -> String {
 #ifdef __cplusplus
 extern \"C\" {{
 #endif
-{prototypes}
+{content}
 #ifdef __cplusplus
 }}
 #endif

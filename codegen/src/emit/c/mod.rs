@@ -123,7 +123,6 @@ impl GeneratedC {
 }
 
 fn header_file(target: &Target<'_>, about: &[String], prototypes: &[String]) -> String {
-    let guard = target.own("h").to_uppercase();
     let scalar = match target.options.precision {
         Precision::Double => "double",
         Precision::Float => "float",
@@ -139,30 +138,13 @@ fn header_file(target: &Target<'_>, about: &[String], prototypes: &[String]) -> 
         "is read as if it stood there, and where the task is singular, what has no value there is 0.".into(),
         "No function keeps anything between two calls. result must not overlap an argument.".into(),
     ];
-    let prototypes = prototypes.join("\n");
-    format!(
-        "{about}#ifndef {guard}
-#define {guard}
-
-#ifdef __cplusplus
-extern \"C\" {{
-#endif
-
-{conventions}
-/* The scalar. */
-typedef {scalar} {real};
-
-{prototypes}
-#ifdef __cplusplus
-}}
-#endif
-
-#endif
-",
-        about = comment(about),
+    let content = format!(
+        "\n{conventions}\n/* The scalar. */\ntypedef {scalar} {real};\n\n{prototypes}",
         conventions = comment(&conventions),
         real = target.real(),
-    )
+        prototypes = prototypes.join("\n"),
+    );
+    interface::guarded(&target.own("h"), &comment(about), &content)
 }
 
 fn source_file(target: &Target<'_>, about: &[String], definitions: &[String]) -> String {
